@@ -1,0 +1,13 @@
+// What module.cpp calls, one function per bind_*.cpp.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace pivot::bindings {
+
+void register_caps(pybind11::module_& distributions);
+void register_pivot(pybind11::module_& distributions);
+void register_ggx(pybind11::module_& distributions);
+void register_bsdf(pybind11::module_& bsdf);
+
+}  // namespace pivot::bindings

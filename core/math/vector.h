@@ -1,0 +1,48 @@
+// Vectors are GLM's, over any number type.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/math/number.h"
+
+namespace pivot {
+
+template <class T>
+using Vec2 = glm::vec<2, T>;
+template <class T>
+using Vec3 = glm::vec<3, T>;
+/// Column-major, as in GLM: m[column][row].
+template <class T>
+using Mat3 = glm::mat<3, 3, T>;
+
+using Vec2f = Vec2<float>;
+using Vec3f = Vec3<float>;
+/// Linear scene-referred RGB: radiance, reflectance.
+using Rgb = Vec3<float>;
+
+using glm::cross;
+using glm::dot;
+
+template <class T>
+T length_squared(const Vec3<T>& v) {
+    return dot(v, v);
+}
+
+template <class T>
+T length(const Vec3<T>& v) {
+    return sqrt(dot(v, v));
+}
+
+template <class T>
+Vec3<T> normalize(const Vec3<T>& v) {
+    return v * (T(1) / sqrt(dot(v, v)));
+}
+
+template <class T>
+Vec3<T> select(bool condition, const Vec3<T>& a, const Vec3<T>& b) {
+    return condition ? a : b;
+}
+
+inline float max_component(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
+
+}  // namespace pivot

@@ -1,0 +1,81 @@
+"""GGX over caps and polygons, for test_oracles.py."""
+
+from typing import Any
+
+import numpy as np
+import pivot_core.distributions as pd
+from pivot_core.bsdf import ggx_eval
+
+from tests.core.oracle_formulas_caps import Values, versine
+
+
+def ggx_cap_closed(inputs: Values, dtype: type) -> Values:
+    light = inputs["cap_dir"], versine(inputs["psi"])
+    integral, valid = pd.ggx_cap_integral(inputs["wo"], *light, inputs["alpha_x"], inputs["alpha_y"])
+    assert valid
+    return {"integral": integral}
+
+
+def ggx_polygon_closed(inputs: Values, dtype: type) -> Values:
+    lobe = inputs["wo"], inputs["alpha_x"], inputs["alpha_y"]
+    return {"integral": pd.ggx_polygon_integral(*lobe, inputs["P"])[0]}
+
+
+def panels(begin: float, end: float, width: float, order: int = 10) -> tuple[np.ndarray, np.ndarray]:
+    """Gauss-Legendre nodes and weights on [begin, end], in panels no wider than `width`."""
+    edges = np.linspace(begin, end, int(np.ceil((end - begin) / width)) + 1)
+    half = np.diff(edges)[:, None] / 2
+    nodes, weights = np.polynomial.legendre.leggauss(order)
+    return (edges[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+
+
+def integrate_above(axis: np.ndarray, psi: float, width: float, f: Any, dtype: type) -> Any:
+    """The integral of f over what of a cap, psi <= pi / 2, lies above z = 0, in circles about z.
+
+    The circle at the angle beta from z is inside the cap within arccos((cos psi - cos beta cos theta) / (sin beta sin
+    theta)) of the axis' azimuth, theta the axis' angle from z; circles below |theta - psi| are all inside, or outside.
+    """
+    theta, azimuth = np.arctan2(np.hypot(axis[0], axis[1]), axis[2]), np.arctan2(axis[1], axis[0])
+    near, far = abs(theta - psi), min(theta + psi, 2 * np.pi - theta - psi)
+    mid, half = (near + far) / 2, (far - near) / 2
+    pieces = []  # beta, half the azimuth inside, weight
+    if psi > theta:
+        beta, weight = panels(0, min(near, np.pi / 2), width)
+        pieces.append((beta, np.full_like(beta, np.pi), weight))
+    if half > 1e-9 and near < np.pi / 2:
+        # beta = mid - half cos t takes the square root out of both ends
+        t, weight = panels(0, np.arccos(np.clip((mid - np.pi / 2) / half, -1, 1)), width / half)
+        beta = mid - half * np.cos(t)
+        inside = (np.cos(psi) - np.cos(beta) * np.cos(theta)) / (np.sin(beta) * np.sin(theta))
+        pieces.append((beta, np.arccos(np.clip(inside, -1, 1)), weight * half * np.sin(t)))
+    total = 0.0
+    for beta, reach, weight in pieces:
+        unit, unit_weight = panels(-1, 1, width / (np.sin(beta) * reach).max())
+        phi = azimuth + reach[:, None] * unit
+        sine, cosine = np.sin(beta)[:, None], np.cos(beta)[:, None]
+        omega = np.stack(np.broadcast_arrays(sine * np.cos(phi), sine * np.sin(phi), cosine), -1)
+        total += (f(omega.astype(dtype)) * ((weight * np.sin(beta) * reach)[:, None] * unit_weight)).sum()
+    return dtype(total)
+
+
+def reflected(inputs: Values, wo: Any, axis: Any, psi: float, dtype: type) -> Any:
+    """Light reflected from a cap of radiance 1 by GGX with height-correlated Smith masking."""
+    alpha = inputs["alpha"]
+    axis = np.asarray(axis, np.float64) / np.linalg.norm(axis)
+    width = max(float(alpha), 0.02) * min(1.0, float(wo[2]) * 2)
+    return integrate_above(axis, float(psi), width, lambda omega: ggx_eval(alpha, wo, omega), dtype)
+
+
+def ggx_albedo(inputs: Values, dtype: type) -> Values:
+    theta = inputs["theta_o"]
+    wo = np.asarray([np.sin(theta), 0, np.cos(theta)], dtype)
+    return {"albedo": reflected(inputs, wo, [0, 0, 1], np.pi / 2, dtype)}
+
+
+def ggx_sphere_light(inputs: Values, dtype: type) -> Values:
+    return {"Lo_over_L": reflected(inputs, inputs["wo"], inputs["cap_dir"], inputs["psi"], dtype)}
+
+
+FORMULAS: dict[str, Any] = {
+    function.__name__: function for function in (ggx_cap_closed, ggx_polygon_closed, ggx_albedo, ggx_sphere_light)
+}
