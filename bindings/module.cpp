@@ -27,6 +27,10 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_caps(distributions);
     register_pivot(distributions);
     register_ggx(distributions);
+    register_ltsd(distributions);
+    register_gaussian(distributions);
+    register_pixels(distributions);
+    register_media(distributions);
 
     auto bsdf = module.def_submodule("bsdf", "The GGX lobe and Fresnel reflectance, over NumPy arrays.");
     register_bsdf(bsdf);

@@ -8,6 +8,10 @@ namespace pivot::bindings {
 void register_caps(pybind11::module_& distributions);
 void register_pivot(pybind11::module_& distributions);
 void register_ggx(pybind11::module_& distributions);
+void register_ltsd(pybind11::module_& distributions);
+void register_gaussian(pybind11::module_& distributions);
+void register_pixels(pybind11::module_& distributions);
+void register_media(pybind11::module_& distributions);
 void register_bsdf(pybind11::module_& bsdf);
 
 }  // namespace pivot::bindings
