@@ -34,4 +34,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
 
     auto bsdf = module.def_submodule("bsdf", "The GGX lobe and Fresnel reflectance, over NumPy arrays.");
     register_bsdf(bsdf);
+
+    auto tables = module.def_submodule("tables", "Tables fitted by lut/, fetched with linear interpolation.");
+    register_tables(tables);
 }

@@ -13,5 +13,6 @@ void register_gaussian(pybind11::module_& distributions);
 void register_pixels(pybind11::module_& distributions);
 void register_media(pybind11::module_& distributions);
 void register_bsdf(pybind11::module_& bsdf);
+void register_tables(pybind11::module_& tables);
 
 }  // namespace pivot::bindings

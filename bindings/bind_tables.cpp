@@ -1,0 +1,83 @@
+#include "bindings/register.h"
+#include "bindings/vectorize.h"
+#include "core/tables/axes.h"
+#include "core/tables/ggx_albedo.h"
+#include "core/tables/ggx_dielectric.h"
+#include "core/tables/ggx_sptd.h"
+
+namespace pivot::bindings {
+
+namespace {
+
+constexpr Number alpha_spec{.name = "alpha", .low = 1e-3 * (1 - 1e-6), .high = 1};
+constexpr Number cos_spec{.name = "cos_o", .low = 0, .high = 1};
+
+/// The values at the nodes of an axis, as the tables' own lookup places them.
+template <class Value>
+py::array_t<float> nodes(int count, Value value) {
+    py::array_t<float> values(Shape{count});
+    for (int i = 0; i < count; ++i)
+        values.mutable_data()[i] = value(static_cast<float>(i) / static_cast<float>(count - 1));
+    return values;
+}
+
+}  // namespace
+
+void register_tables(py::module_& tables) {
+    tables.def(
+        "alpha_nodes", [](int count) { return nodes(count, alpha_at); }, py::arg("count"),
+        "alpha_nodes(count): alpha at the nodes of a table of that size, 1e-3 to 1, even in its square root.");
+    tables.def(
+        "cos_nodes", [](int count) { return nodes(count, cos_at); }, py::arg("count"),
+        "cos_nodes(count): cosine at the nodes of a table of that size, 0 to 1, even in its square root.");
+    tables.def(
+        "ior_nodes", [](int count) { return nodes(count, ior_at); }, py::arg("count"),
+        "ior_nodes(count): index of refraction at the nodes of a table of that size, 1 to 3, dense at 1.");
+    define(
+        tables, "ggx_sptd_from_node",
+        "ggx_sptd_from_node(alpha, wo_local, shift, width): (pivot_local (..., 3), delta (...)) that a node of the "
+        "SPTD table\n"
+        "stands for. The pivot lies 2 atan(alpha shift sin_o / 2) from the mirror direction towards the horizon; delta "
+        "= alpha width.",
+        []<class T>(T alpha, const Vec3<T>& wo, T shift, T width) {
+            const GgxSptd lobe = ggx_sptd_from_node(static_cast<float>(alpha), Vec3f(wo), static_cast<float>(shift),
+                                                    static_cast<float>(width), 1.f);
+            return std::tuple(Vec3<T>(lobe.pivot_local), static_cast<T>(lobe.delta));
+        },
+        alpha_spec, Direction{"wo_local"}, Number{.name = "shift"},
+        Number{.name = "width", .low = 0, .open_low = true});
+    define(
+        tables, "ggx_sptd",
+        "ggx_sptd(alpha, wo_local): the SPTD nearest to the GGX lobe, from the table: (pivot_local (..., 3), delta "
+        "(...),\n"
+        "albedo (...), amplitude (...)). amplitude times the SPTD integrates to albedo over the hemisphere.\n\n"
+        "alpha (...) in [1e-3, 1]; wo_local (..., 3), unit. [Dupuy17, 5.2]",
+        []<class T>(T alpha, const Vec3<T>& wo) {
+            const GgxSptd lobe = ggx_sptd(static_cast<float>(alpha), Vec3f(wo));
+            return std::tuple(Vec3<T>(lobe.pivot_local), static_cast<T>(lobe.delta), static_cast<T>(lobe.albedo),
+                              static_cast<T>(lobe.amplitude()));
+        },
+        alpha_spec, Direction{"wo_local"});
+    define(
+        tables, "ggx_albedo",
+        "ggx_albedo(alpha, cos_o): the integral of GGX BRDF * cos over the hemisphere, F = 1, from the table.",
+        []<class T>(T alpha, T cos_o) {
+            return static_cast<T>(ggx_albedo(static_cast<float>(alpha), static_cast<float>(cos_o)));
+        },
+        alpha_spec, cos_spec);
+    define(
+        tables, "ggx_average_albedo", "ggx_average_albedo(alpha): 2 int E cos dcos of ggx_albedo's E, from the table.",
+        []<class T>(T alpha) { return static_cast<T>(ggx_average_albedo(static_cast<float>(alpha))); }, alpha_spec);
+    define(
+        tables, "ggx_dielectric_weight",
+        "ggx_dielectric_weight(alpha, cos_o, ior): s such that the GGX lobe under the dielectric Fresnel curve has "
+        "albedo\n"
+        "lerp(F0, 1, s) * ggx_albedo, from the table. ior (...) >= 1, held at 3 above that.",
+        []<class T>(T alpha, T cos_o, T ior) {
+            return static_cast<T>(
+                ggx_dielectric_weight(static_cast<float>(alpha), static_cast<float>(cos_o), static_cast<float>(ior)));
+        },
+        alpha_spec, cos_spec, Number{.name = "ior", .low = 1});
+}
+
+}  // namespace pivot::bindings
