@@ -16,6 +16,7 @@ Results are float32 if every floating-point array given is float32, else float64
 in steradians, pdfs per steradian. A spherical cap is its unit axis and its versine, 1 - cos(half-angle), in [0, 2]: a
 tiny cap keeps all its bits. A pivot is a unit direction and delta = 1 - |r_p| in (0, 1]. Bad input raises ValueError
 naming the argument; nothing returns NaN.)";
+
 }  // namespace
 
 PYBIND11_MODULE(PIVOT_MODULE, module) {
@@ -37,4 +38,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
 
     auto tables = module.def_submodule("tables", "Tables fitted by lut/, fetched with linear interpolation.");
     register_tables(tables);
+
+    register_scene(module);
+    register_render(module);
 }

@@ -1,0 +1,93 @@
+// pivot_core.RenderSettings and Session.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "bindings/register.h"
+#include "core/render.h"
+
+namespace pivot::bindings {
+namespace {
+
+namespace py = pybind11;
+using std::string;
+
+template <class Enum>
+using Names = std::initializer_list<std::pair<const char*, Enum>>;
+
+/// The value that a name stands for; ValueError lists the names there are.
+template <class Enum>
+Enum from_name(const char* argument, const string& name, Names<Enum> names) {
+    string known;
+    for (const auto& [key, value] : names) {
+        if (name == key) return value;
+        known += (known.empty() ? "" : ", ") + string(key);
+    }
+    throw py::value_error(string(argument) + " must be one of " + known + ", not '" + name + "'");
+}
+
+void require(bool ok, const char* message) {
+    if (!ok) throw py::value_error(message);
+}
+
+RenderSettings make_settings(const string& integrator, int samples, std::uint32_t seed, int max_bounces,
+                             const string& light_sampling, float error_budget_percent, float time_limit_s, int threads,
+                             float filter_width_px, bool transparent_film) {
+    require(samples >= 1, "samples must be at least 1");
+    require(max_bounces >= 0, "max_bounces must not be negative");
+    require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
+    require(time_limit_s >= 0.0f, "time_limit_s must not be negative");
+    require(threads >= 0, "threads must not be negative");
+    require(filter_width_px >= 0.0f && filter_width_px < 100.0f, "filter_width_px must be in [0, 100)");
+    return {
+        .integrator = from_name<Integrator>(
+            "integrator", integrator, {{"MONTE_CARLO", Integrator::monte_carlo}, {"ANALYTIC", Integrator::analytic}}),
+        .light_sampling = from_name<LightSampling>("light_sampling", light_sampling,
+                                                   {{"JOINT", LightSampling::joint},
+                                                    {"SPTD", LightSampling::sptd},
+                                                    {"MIS", LightSampling::mis},
+                                                    {"LIGHT", LightSampling::light},
+                                                    {"BSDF", LightSampling::bsdf}}),
+        .samples = static_cast<std::uint32_t>(samples),
+        .seed = seed,
+        .max_bounces = static_cast<std::uint32_t>(max_bounces),
+        .error_budget_percent = error_budget_percent,
+        .time_limit_s = time_limit_s,
+        .threads = threads,
+        .filter_width_px = filter_width_px,
+        .transparent_film = transparent_film};
+}
+
+py::array_t<float> read(const Session& session, const string& pass) {
+    const Film& film = session.film();
+    const std::vector<float> values = film.read(pass);
+    return py::array_t<float>({film.height(), film.width(), Film::channels(pass)}, values.data());
+}
+
+}  // namespace
+
+void register_render(py::module_& module) {
+    py::class_<RenderSettings>(module, "RenderSettings", "What the artist sets; see the README's table.")
+        .def(py::init(&make_settings), py::kw_only(), py::arg("integrator") = "MONTE_CARLO", py::arg("samples") = 64,
+             py::arg("seed") = 0, py::arg("max_bounces") = 4, py::arg("light_sampling") = "JOINT",
+             py::arg("error_budget_percent") = 2.0f, py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
+             py::arg("filter_width_px") = 1.5f, py::arg("transparent_film") = false);
+    py::class_<Session>(module, "Session",
+                        "A render by native threads. The scene must not be edited until the session has ended.")
+        .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
+        .def("start", &Session::start, "Starts the threads and returns at once.")
+        .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),
+             "Whether the render has ended within the given time; raises what failed in it.")
+        .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")
+        .def_property_readonly("progress", &Session::progress, "0..1")
+        .def_property_readonly("samples_done", &Session::samples_done, "Samples complete over the whole window.")
+        .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
+        .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
+        .def_property_readonly("bad_samples", &Session::bad_samples,
+                               "The first few samples that were not finite and were left out, by pixel and object.")
+        .def("read", &read, py::arg("pass_name"),
+             "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
+             "the "
+             "camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit.");
+}
+
+}  // namespace pivot::bindings

@@ -1,0 +1,108 @@
+#include "core/integrators/light_sampler.h"
+
+#include "core/tables/ggx_sptd.h"
+
+namespace pivot {
+namespace {
+
+const Vec3f normal_local(0.0f, 0.0f, 1.0f);
+
+float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
+
+}  // namespace
+
+LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const Surface& surface,
+                           LightSampling strategy)
+    : light_(light),
+      point_(point),
+      cap_(cap_from(light, point.position)),
+      shares_with_bsdf_(strategy != LightSampling::light) {
+    if (strategy == LightSampling::bsdf) return;
+    diffuse_technique_ = glossy_technique_ = Technique::uniform;
+    if (!cap_) return;
+    cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
+    if (strategy != LightSampling::joint && strategy != LightSampling::sptd) return;
+
+    // What each lobe reflects of the light, to choose between their techniques.
+    float diffuse_share = 0.0f;
+    float glossy_share = 0.0f;
+    if (surface.has_diffuse()) {
+        diffuse_share = mean_component(surface.diffuse) * clamped_cosine_integral(cap_local_, normal_local) / pi<float>;
+        if (strategy == LightSampling::joint) {
+            diffuse_technique_ = Technique::projected;
+            // From inside a sphere light the cap is all directions; those that count are the hemisphere.
+            const bool inside = cap_local_.versine > 1.0f;
+            projected_cap_ = projected_cap(inside ? Cap<float>{normal_local, 1.0f} : cap_local_, normal_local);
+        }
+    }
+    if (surface.has_glossy()) {
+        const Vec3f h = normalize(surface.wo_local + cap_local_.axis);
+        const float fresnel = mean_component(surface.fresnel.at(std::abs(dot(surface.wo_local, h))));
+        if (strategy == LightSampling::sptd) {
+            glossy_technique_ = Technique::pivot;
+            const GgxSptd lobe = ggx_sptd(surface.alpha, surface.wo_local);
+            pivot_ = {lobe.pivot_local, lobe.delta};
+            glossy_share = fresnel * lobe.amplitude() * integrate_uniform(pivot_, cap_local_);
+        } else {
+            ggx_cap_ = ggx_cap(surface.wo_local, cap_local_, surface.alpha, surface.alpha);
+            if (ggx_cap_.valid) {
+                glossy_technique_ = Technique::exact;
+                glossy_share = fresnel * ggx_cap_.integral * ggx_g1(surface.wo_local, surface.alpha, surface.alpha);
+            } else {
+                glossy_share = fresnel * std::min(1.0f, cap_local_.versine);
+            }
+        }
+    }
+    shares_with_bsdf_ = strategy == LightSampling::sptd || glossy_technique_ == Technique::uniform;
+    if (strategy == LightSampling::joint && !surface.has_glossy()) shares_with_bsdf_ = false;
+    const float total = diffuse_share + glossy_share;
+    glossy_probability_ = total > 0.0f ? glossy_share / total : 0.5f;
+    if (surface.has_diffuse() && surface.has_glossy())
+        glossy_probability_ = std::clamp(glossy_probability_, 0.05f, 0.95f);
+}
+
+Vec3f LightSampler::sample_in_cap(Technique technique, const Vec2f& u) const {
+    switch (technique) {
+        case Technique::projected:
+            return pivot::sample(projected_cap_, u);
+        case Technique::pivot:
+            return sample_uniform(pivot_, cap_local_, u);
+        case Technique::exact:
+            return pivot::sample(ggx_cap_, u).omega_i;
+        default:
+            return pivot::sample(cap_local_, u);
+    }
+}
+
+float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const {
+    switch (technique) {
+        case Technique::none:
+            return 0.0f;
+        case Technique::projected:
+            return pdf_omega_inside(projected_cap_, wi_local);
+        case Technique::pivot:
+            return pdf_omega_uniform_inside(pivot_, cap_local_, wi_local);
+        case Technique::exact:
+            return pdf_omega_inside(ggx_cap_, wi_local);
+        case Technique::uniform:
+            return 1.0f / solid_angle(cap_local_);
+    }
+    return 0.0f;
+}
+
+std::optional<LightPoint> LightSampler::sample(float u_technique, const Vec2f& u) const {
+    if (diffuse_technique_ == Technique::none) return std::nullopt;
+    if (!cap_) return sample_light(light_, point_.position, u);
+    const Vec3f wi_local = sample_in_cap(u_technique < glossy_probability_ ? glossy_technique_ : diffuse_technique_, u);
+    LightPoint place = light_point_in_cap(light_, *cap_, point_.position, point_.frame.to_world(wi_local));
+    place.pdf_omega = pdf_omega(place);
+    return place;
+}
+
+float LightSampler::pdf_omega(const LightPoint& place) const {
+    if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
+    const Vec3f wi_local = point_.frame.to_local(place.wi);
+    return lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_);
+}
+
+}  // namespace pivot

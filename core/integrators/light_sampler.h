@@ -1,0 +1,59 @@
+// How one light is sampled from one surface point: the strategies behind RenderSettings::light_sampling.
+//
+// A cap-shaped light is drawn from a mixture of two techniques, one fit for the diffuse lobe and one for the glossy
+// lobe, in proportion to what each lobe reflects of the light in closed form. Their density is exact, so whatever the
+// closed forms say, the estimate is unbiased.
+//
+//            diffuse lobe         glossy lobe                          shares with BSDF samples by MIS
+//   joint    projected cap        exact core (uniform where the        only where the core's cone leaves the horizon
+//                                 core's cone leaves the horizon)
+//   sptd     uniform in the cap   pivoted cap [Dupuy17, Sec. 6.1]      yes
+//   mis      uniform in the cap   uniform in the cap                   yes
+//   light    uniform in the cap   uniform in the cap                   no
+//   bsdf     -                    -                                    BSDF samples alone
+//
+// An area light is drawn uniformly by area, and shares with BSDF samples in every strategy but light.
+#pragma once
+
+#include "core/distributions/elliptic_cone.h"
+#include "core/distributions/projected_cap.h"
+#include "core/distributions/sptd.h"
+#include "core/integrators/settings.h"
+#include "core/lights/light.h"
+#include "core/scene/surface_point.h"
+
+namespace pivot {
+
+class LightSampler {
+   public:
+    LightSampler(const Light& light, const SurfacePoint& point, const Surface& surface, LightSampling strategy);
+
+    /// Whether BSDF samples take part; if not, those that meet this light count nothing.
+    bool shares_with_bsdf() const { return shares_with_bsdf_; }
+
+    /// Nothing where the light does not reach the point, or by strategy bsdf. u_technique chooses within the mixture.
+    std::optional<LightPoint> sample(float u_technique, const Vec2f& u) const;
+
+    /// Density of sample() at a place on the light.
+    float pdf_omega(const LightPoint& place) const;
+
+   private:
+    enum class Technique { none, uniform, projected, pivot, exact };
+
+    Vec3f sample_in_cap(Technique technique, const Vec2f& u) const;
+    float pdf_in_cap(Technique technique, const Vec3f& wi_local) const;
+
+    const Light& light_;
+    const SurfacePoint& point_;
+    std::optional<Cap<float>> cap_;  ///< world space
+    Cap<float> cap_local_{};
+    Technique diffuse_technique_ = Technique::none;
+    Technique glossy_technique_ = Technique::none;
+    float glossy_probability_ = 0.0f;
+    bool shares_with_bsdf_ = true;
+    ProjectedCap<float> projected_cap_{};
+    Pivot<float> pivot_{};
+    GgxCap<float> ggx_cap_{};
+};
+
+}  // namespace pivot

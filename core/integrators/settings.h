@@ -1,0 +1,27 @@
+// What the artist sets.
+#pragma once
+
+#include <cstdint>
+
+namespace pivot {
+
+enum class Integrator { monte_carlo, analytic };
+
+/// How Monte Carlo finds light: jointly with the BSDF by the exact core, jointly by one SPTD lobe and MIS, or by light
+/// and BSDF samples, together or alone.
+enum class LightSampling { joint, sptd, mis, light, bsdf };
+
+struct RenderSettings {
+    Integrator integrator = Integrator::monte_carlo;
+    LightSampling light_sampling = LightSampling::joint;
+    std::uint32_t samples = 64;
+    std::uint32_t seed = 0;
+    std::uint32_t max_bounces = 4;      ///< 0: direct light only
+    float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show
+    float time_limit_s = 0.0f;          ///< 0: none
+    int threads = 0;                    ///< 0: all cores
+    float filter_width_px = 1.5f;
+    bool transparent_film = false;
+};
+
+}  // namespace pivot

@@ -1,0 +1,142 @@
+#include "core/lights/light.h"
+
+#include <stdexcept>
+
+#include "core/sampling/warp.h"
+
+namespace pivot {
+namespace {
+
+// Directions to a light of radius 0 still need a density: it becomes a sphere no picture can tell from a point.
+constexpr float min_radius_m = 1e-5f;
+constexpr float min_sun_half_angle_rad = 1e-5f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void require(bool ok, const char* message) {
+    if (!ok) throw std::invalid_argument(message);
+}
+
+bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool is_unit(const Vec3f& v) { return std::abs(length_squared(v) - 1.0f) < 1e-3f; }
+
+void require_color(const Rgb& c, const char* message) {
+    require(is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f, message);
+}
+
+const SphereLight* sphere_of(const Light& light) {
+    if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->sphere;
+    return std::get_if<SphereLight>(&light);
+}
+
+/// To the near side of the sphere, or to its far side from within.
+float distance_to_sphere(const SphereLight& sphere, const Vec3f& point, const Vec3f& wi) {
+    const Vec3f d = sphere.center - point;
+    const float along = dot(d, wi);
+    const float half_chord = safe_sqrt(sqr(sphere.radius_m) - length_squared(d - along * wi));
+    const float distance_m = length_squared(d) > sqr(sphere.radius_m) ? along - half_chord : along + half_chord;
+    return std::max(distance_m, 0.0f);  // a receiver that touches the sphere
+}
+
+std::optional<LightPoint> area_light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
+    const float cos_light = -dot(wi, light.normal);
+    if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
+    return LightPoint{wi, distance_m, light.radiance, sqr(distance_m) / (cos_light * light.area_m2)};
+}
+
+std::optional<LightPoint> sample_area(const AreaLight& light, const Vec3f& point, const Vec2f& u) {
+    const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
+    const Vec3f d = light.center + place.x * light.half_u + place.y * light.half_v - point;
+    const float distance_m = length(d);
+    if (!(distance_m > 0.0f)) return std::nullopt;
+    return area_light_point(light, d / distance_m, distance_m);
+}
+
+std::optional<LightPoint> intersect_area(const AreaLight& light, const Vec3f& point, const Vec3f& wi) {
+    const float cos_light = -dot(wi, light.normal);
+    if (cos_light <= 0.0f) return std::nullopt;
+    const float distance_m = dot(point - light.center, light.normal) / cos_light;
+    const Vec3f place = point + distance_m * wi - light.center;
+    // Coordinates along half_u and half_v, which need not be perpendicular.
+    const Vec3f across_u = cross(light.half_v, light.normal);
+    const Vec3f across_v = cross(light.normal, light.half_u);
+    const float x = dot(place, across_u) / dot(light.half_u, across_u);
+    const float y = dot(place, across_v) / dot(light.half_v, across_v);
+    if (light.ellipse ? x * x + y * y > 1.0f : std::max(std::abs(x), std::abs(y)) > 1.0f) return std::nullopt;
+    return area_light_point(light, wi, distance_m);
+}
+
+}  // namespace
+
+SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity) {
+    require(is_finite(center), "position must be finite");
+    require(std::isfinite(radius_m) && radius_m >= 0.0f, "radius_m must be finite and not negative");
+    require_color(intensity, "intensity must be finite and not negative");
+    const float radius = std::max(radius_m, min_radius_m);
+    return {center, radius, intensity / (pi<float> * sqr(radius))};
+}
+
+SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend) {
+    require(is_unit(direction), "direction must be a unit vector");
+    require(cos_half_angle >= -1.0f && cos_half_angle < 1.0f, "cos_half_angle must be in [-1, 1)");
+    require(blend >= 0.0f && blend <= 1.0f, "blend must be in [0, 1]");
+    return {sphere, direction, cos_half_angle, blend};
+}
+
+SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb& irradiance) {
+    require(is_unit(direction), "direction must be a unit vector");
+    require(half_angle_rad >= 0.0f && half_angle_rad <= pi<float> / 2.0f, "half_angle_rad must be in [0, pi/2]");
+    require_color(irradiance, "irradiance must be finite and not negative");
+    const float half_angle = std::max(half_angle_rad, min_sun_half_angle_rad);
+    const Cap<float> cap{normalize(direction), 2.0f * sqr(sin(0.5f * half_angle))};
+    return {cap, irradiance / (pi<float> * sqr(sin(half_angle)))};
+}
+
+AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
+                          bool ellipse) {
+    require(is_finite(center), "center must be finite");
+    require(is_finite(half_u) && is_finite(half_v), "half_u and half_v must be finite");
+    require_color(radiance, "radiance must be finite and not negative");
+    const Vec3f normal = cross(half_u, half_v);
+    const float quarter_area = length(normal);
+    require(quarter_area > 0.0f, "half_u and half_v must span an area");
+    return {center,  half_u,  half_v, normal / quarter_area, quarter_area * (ellipse ? pi<float> : 4.0f),
+            ellipse, radiance};
+}
+
+float spot_falloff(const SpotLight& spot, const Vec3f& wi) {
+    const float inside = -dot(wi, spot.direction) - spot.cos_half_angle;
+    if (inside <= 0.0f) return 0.0f;
+    const float t = std::min(inside / std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f), 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
+    if (const auto* sun = std::get_if<SunLight>(&light)) return sun->cap;
+    if (const SphereLight* sphere = sphere_of(light)) return cap_of_sphere(sphere->center - point, sphere->radius_m);
+    return std::nullopt;
+}
+
+std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u) {
+    if (const auto* area = std::get_if<AreaLight>(&light)) return sample_area(*area, point, u);
+    const Cap<float> cap = *cap_from(light, point);
+    return light_point_in_cap(light, cap, point, sample(cap, u));
+}
+
+std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point, const Vec3f& wi) {
+    if (const auto* area = std::get_if<AreaLight>(&light)) return intersect_area(*area, point, wi);
+    const Cap<float> cap = *cap_from(light, point);
+    if (!contains(cap, wi)) return std::nullopt;
+    return light_point_in_cap(light, cap, point, wi);
+}
+
+LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi) {
+    const float pdf_omega = 1.0f / solid_angle(cap);
+    if (const auto* sun = std::get_if<SunLight>(&light)) return {wi, infinity, sun->radiance, pdf_omega};
+    const SphereLight& sphere = *sphere_of(light);
+    const auto* spot = std::get_if<SpotLight>(&light);
+    const Rgb radiance = spot ? sphere.radiance * spot_falloff(*spot, wi) : sphere.radiance;
+    return {wi, distance_to_sphere(sphere, point, wi), radiance, pdf_omega};
+}
+
+}  // namespace pivot

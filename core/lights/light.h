@@ -1,0 +1,79 @@
+// Lights of finite size. A point sees a sphere, a spot and a sun as a spherical cap, an area light as its outline.
+// World space; wi points from the lit point towards the light. All emit linear RGB radiance.
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "core/distributions/cap.h"
+
+namespace pivot {
+
+/// A sphere that shines alike in all directions. Radius 0 is a very small sphere of the same intensity.
+struct SphereLight {
+    Vec3f center;
+    float radius_m;
+    Rgb radiance;
+};
+
+/// A sphere whose radiance falls off from its axis to the edge of a cone; Blender's spot.
+struct SpotLight {
+    SphereLight sphere;
+    Vec3f direction;  ///< where it shines, unit
+    float cos_half_angle;
+    float blend;  ///< 0: hard edge, 1: falls off from the axis on
+};
+
+/// Light from a cap of directions, the same everywhere.
+struct SunLight {
+    Cap<float> cap;
+    Rgb radiance;
+};
+
+/// A parallelogram or the ellipse in it, shining from one side.
+struct AreaLight {
+    Vec3f center;
+    Vec3f half_u, half_v;
+    Vec3f normal;  ///< the side that shines, unit
+    float area_m2;
+    bool ellipse;
+    Rgb radiance;
+};
+
+using Light = std::variant<SphereLight, SpotLight, SunLight, AreaLight>;
+
+// Each throws std::invalid_argument naming the argument that cannot be.
+
+/// intensity: W/(sr) of the whole sphere towards any side, Blender's power / (4 pi).
+SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity);
+SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend);
+/// direction: towards the sun, unit. irradiance: of a surface that faces it.
+SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb& irradiance);
+/// half_u, half_v: from the centre to the middle of two sides. Shines towards cross(half_u, half_v).
+AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
+                          bool ellipse);
+
+/// Falloff of a spot, 0..1, towards a point that sees it along wi.
+float spot_falloff(const SpotLight& spot, const Vec3f& wi);
+
+/// The cap that a light covers from a point; nothing for an area light.
+std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point);
+
+/// A place on a light as a point sees it.
+struct LightPoint {
+    Vec3f wi;
+    float distance_m;  ///< infinite for a sun
+    Rgb radiance;
+    float pdf_omega;  ///< of sample_light
+};
+
+/// Uniform over the cap, or over the area for an area light. Nothing where the light does not reach the point.
+std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u);
+
+/// What a ray from a point meets of the light.
+std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point, const Vec3f& wi);
+
+/// The place on a cap-shaped light along a wi that lies in its cap.
+LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi);
+
+}  // namespace pivot

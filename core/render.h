@@ -1,0 +1,65 @@
+// A render: a scene, settings and a film, worked on by native threads that can be watched, read and stopped.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <thread>
+
+#include "core/film/film.h"
+#include "core/film/pixel_filter.h"
+#include "core/integrators/settings.h"
+#include "core/scene/scene.h"
+
+namespace pivot {
+
+class Session {
+   public:
+    /// The scene must not be edited until the session has ended.
+    Session(std::shared_ptr<Scene> scene, const RenderSettings& settings);
+    /// Stops and waits.
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Throws std::logic_error when called twice.
+    void start();
+    /// Whether the render has ended within the given time. Throws what the render threw.
+    bool wait(double seconds);
+    /// Asks the render to end; it does so within milliseconds.
+    void stop() { stop_ = true; }
+
+    double progress() const;
+    std::uint32_t samples_done() const { return samples_done_; }
+    const Film& film() const { return film_; }
+    /// The first few samples that were not finite and were left out, each by pixel and object.
+    std::vector<std::string> bad_samples() const;
+
+   private:
+    void run();
+    void render_pass(std::uint32_t first_sample, std::uint32_t last_sample);
+    void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample);
+    void add_sample(Pixel& pixel, int x, int y, std::uint32_t index);
+    void see_center(Pixel& pixel, int x, int y) const;
+    void report_bad_sample(int x, int y, const Ray& ray);
+    bool should_stop() const;
+
+    std::shared_ptr<Scene> scene_;
+    RenderSettings settings_;
+    PixelFilter filter_;
+    Film film_;
+    std::chrono::steady_clock::time_point start_time_, deadline_;
+    std::atomic<bool> stop_{false};
+    std::atomic<std::uint32_t> samples_done_{0};
+    std::atomic<std::uint64_t> pixel_samples_done_{0};
+    mutable std::mutex mutex_;  ///< of what follows
+    std::condition_variable ended_;
+    bool has_ended_ = false;
+    std::exception_ptr fault_;
+    std::vector<std::string> bad_samples_;
+    std::thread thread_;
+};
+
+}  // namespace pivot

@@ -1,0 +1,29 @@
+// Uniform points of the unit square mapped to disks and hemispheres.
+//
+// [Shirley97]  A Low Distortion Map Between Disk and Square
+#pragma once
+
+#include "core/math/vector.h"
+
+namespace pivot {
+
+/// Unit disk, concentric: neighbours stay neighbours [Shirley97].
+template <class T>
+Vec2<T> sample_disk(const Vec2<T>& u) {
+    const T a = T(2) * u.x - T(1);
+    const T b = T(2) * u.y - T(1);
+    if (a == T(0) && b == T(0)) return {T(0), T(0)};
+    const bool steep = abs(b) > abs(a);
+    const T radius = steep ? b : a;
+    const T phi = steep ? pi<T> / T(2) - pi<T> / T(4) * (a / b) : pi<T> / T(4) * (b / a);
+    return {radius * cos(phi), radius * sin(phi)};
+}
+
+/// Hemisphere about +z with pdf_omega = z / pi.
+template <class T>
+Vec3<T> sample_cosine_hemisphere(const Vec2<T>& u) {
+    const Vec2<T> d = sample_disk(u);
+    return {d.x, d.y, safe_sqrt(T(1) - d.x * d.x - d.y * d.y)};
+}
+
+}  // namespace pivot

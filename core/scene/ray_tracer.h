@@ -1,0 +1,54 @@
+// Closest hits and occlusion over instanced meshes. The only place that knows Embree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/math/transform.h"
+#include "core/scene/mesh.h"
+
+namespace pivot {
+
+struct Ray {
+    Vec3f origin;
+    Vec3f direction;  ///< unit
+    float near_m = 0.0f;
+    float far_m = std::numeric_limits<float>::infinity();
+};
+
+struct RayHit {
+    float distance_m;
+    std::uint32_t instance;
+    std::uint32_t triangle;
+    Vec2f barycentric;  ///< weights of the triangle's second and third corner
+};
+
+/// Who sees an instance.
+enum Visibility : std::uint32_t { visible_to_camera = 1, visible_to_light = 2, visible_to_all = 3 };
+
+class RayTracer {
+   public:
+    RayTracer();
+    ~RayTracer();
+    RayTracer(const RayTracer&) = delete;
+    RayTracer& operator=(const RayTracer&) = delete;
+
+    /// The mesh's vectors are read in place: they must outlive the tracer and keep their addresses.
+    void set_mesh(std::uint32_t mesh_id, const Mesh& mesh);
+    void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
+                      std::uint32_t visibility);
+    void remove_instance(std::uint32_t instance_id);
+    /// Builds what has changed. Throws std::bad_alloc, or std::runtime_error with Embree's message.
+    void commit();
+
+    std::optional<RayHit> intersect(const Ray& ray, Visibility from) const;
+    bool occluded(const Ray& ray) const;
+
+   private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace pivot

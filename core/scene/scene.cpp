@@ -1,0 +1,239 @@
+#include "core/scene/scene.h"
+
+#include <stdexcept>
+
+namespace pivot {
+namespace {
+
+bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void require_finite(const Transform& t, const std::string& object) {
+    const Mat3<float>& m = t.linear;
+    if (!is_finite(m[0]) || !is_finite(m[1]) || !is_finite(m[2]) || !is_finite(t.translation)) {
+        throw std::invalid_argument("object '" + object +
+                                    "': its transform is not finite; check its location, rotation, "
+                                    "scale, drivers and constraints");
+    }
+}
+
+void require_valid(const Mesh& mesh) {
+    const auto fail = [&](const std::string& what) {
+        throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
+    };
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        if (!is_finite(mesh.positions[i])) fail("vertex " + std::to_string(i) + " is not finite");
+    }
+    const auto check_indices = [&](const std::vector<Triangle>& triangles, std::size_t limit, const char* what) {
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const Triangle& t = triangles[i];
+            if (std::max({t.x, t.y, t.z}) >= limit) {
+                fail("triangle " + std::to_string(i) + " has a " + what + " past the end of " + std::to_string(limit));
+            }
+        }
+    };
+    check_indices(mesh.triangles, mesh.vertex_count(), "vertex");
+    if (!mesh.corner_normals.empty()) check_indices(mesh.triangle_corners, mesh.corner_normals.size(), "corner");
+    for (std::size_t i = 0; i < mesh.corner_normals.size(); ++i) {
+        if (!is_finite(mesh.corner_normals[i])) fail("the normal of corner " + std::to_string(i) + " is not finite");
+    }
+}
+
+void require_valid(const std::string& name, const Material& material) {
+    const auto valid = [](const Rgb& c) { return is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f; };
+    if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
+        !valid(material.dielectric_tint) || !valid(material.emission) || !std::isfinite(material.alpha) ||
+        !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
+        !(material.conductor_weight >= 0.0f)) {
+        throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
+    }
+}
+
+/// The value an id stands for, or an error that names what was asked for.
+template <class Items>
+auto& at(Items& items, std::uint32_t id, const char* what) {
+    if (id >= items.size())
+        throw std::invalid_argument(std::string(what) + " " + std::to_string(id) + " is not in the scene");
+    return items[id];
+}
+
+template <class T>
+T& at_present(std::vector<std::optional<T>>& items, std::uint32_t id, const char* what) {
+    auto& item = at(items, id, what);
+    if (!item) throw std::invalid_argument(std::string(what) + " " + std::to_string(id) + " was removed");
+    return *item;
+}
+
+/// Shading normals may lean away from the viewer where the surface is seen; there they are bent until wo lies above.
+Vec3f bend_towards(const Vec3f& normal, const Vec3f& wo) {
+    constexpr float min_cos = 1e-3f;
+    const float cos_o = dot(normal, wo);
+    if (cos_o >= min_cos) return normal;
+    return normalize(normal + (2.0f * min_cos - cos_o) * wo);
+}
+
+}  // namespace
+
+void Scene::require_editable() const {
+    if (holders_ > 0) throw std::logic_error("the scene is being rendered: wait for the session to end, then edit it");
+}
+
+std::uint32_t Scene::add_mesh(Mesh mesh) {
+    require_editable();
+    require_valid(mesh);
+    const auto id = static_cast<std::uint32_t>(meshes_.size());
+    meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
+    ray_tracer_.set_mesh(id, *meshes_.back());
+    return id;
+}
+
+std::uint32_t Scene::add_material(const std::string& name, const Material& material) {
+    require_editable();
+    require_valid(name, material);
+    materials_.push_back(material);
+    return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+std::uint32_t Scene::add_instance(Instance instance) {
+    require_editable();
+    require_finite(instance.world_from_object, instance.name);
+    at(meshes_, instance.mesh, "mesh");
+    if (instance.materials.empty()) throw std::invalid_argument("object '" + instance.name + "' has no material id");
+    for (const std::uint32_t material : instance.materials) at(materials_, material, "material");
+    const auto id = static_cast<std::uint32_t>(instances_.size());
+    ray_tracer_.set_instance(id, instance.mesh, instance.world_from_object, instance.visibility);
+    instances_.push_back(std::move(instance));
+    return id;
+}
+
+std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
+    require_editable();
+    lights_.push_back(NamedLight{name, light});
+    return static_cast<std::uint32_t>(lights_.size() - 1);
+}
+
+void Scene::set_material(std::uint32_t id, const Material& material) {
+    require_editable();
+    require_valid(std::to_string(id), material);
+    at(materials_, id, "material") = material;
+}
+
+void Scene::set_light(std::uint32_t id, const Light& light) {
+    require_editable();
+    at_present(lights_, id, "light").light = light;
+}
+
+void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from_object) {
+    require_editable();
+    Instance& instance = at_present(instances_, id, "instance");
+    require_finite(world_from_object, instance.name);
+    instance.world_from_object = world_from_object;
+    ray_tracer_.set_instance(id, instance.mesh, world_from_object, instance.visibility);
+}
+
+void Scene::remove_instance(std::uint32_t id) {
+    require_editable();
+    at_present(instances_, id, "instance");
+    instances_[id].reset();
+    ray_tracer_.remove_instance(id);
+}
+
+void Scene::remove_light(std::uint32_t id) {
+    require_editable();
+    at_present(lights_, id, "light");
+    lights_[id].reset();
+}
+
+void Scene::set_world(const Rgb& radiance) {
+    require_editable();
+    if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
+    world_ = radiance;
+}
+
+void Scene::set_camera(const Camera& camera) {
+    require_editable();
+    require_finite(camera.world_from_camera, "camera");
+    const Window& w = camera.window;
+    if (camera.width < 1 || camera.height < 1)
+        throw std::invalid_argument("camera: the frame needs at least one pixel");
+    if (w.x0 < 0 || w.y0 < 0 || w.x1 > camera.width || w.y1 > camera.height || w.width() < 1 || w.height() < 1) {
+        throw std::invalid_argument("camera: window must lie within the frame and hold at least one pixel");
+    }
+    if (!(camera.right > camera.left) || !(camera.top > camera.bottom)) {
+        throw std::invalid_argument(
+            "camera: view_plane must be (left, right, bottom, top) with left < right, bottom < top");
+    }
+    camera_ = camera;
+}
+
+void Scene::commit() {
+    if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
+    ray_tracer_.commit();
+    active_lights_.clear();
+    for (const auto& light : lights_) {
+        if (light) active_lights_.push_back(light->light);
+    }
+    has_unsampled_light_ = max_component(world_) > 0.0f;
+    for (const auto& instance : instances_) {
+        if (!instance) continue;
+        for (const std::uint32_t material : instance->materials) {
+            has_unsampled_light_ = has_unsampled_light_ || materials_[material].is_emissive();
+        }
+    }
+}
+
+std::size_t Scene::memory_bytes() const {
+    std::size_t bytes = instances_.size() * sizeof(Instance);
+    // Embree keeps about 60 bytes a triangle of its own.
+    for (const auto& mesh : meshes_) bytes += mesh->memory_bytes() + 60 * mesh->triangles.size();
+    return bytes;
+}
+
+SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
+    const Instance& instance = *instances_[hit.instance];
+    const Mesh& mesh = *meshes_[instance.mesh];
+    const Transform& transform = instance.world_from_object;
+    const Triangle& t = mesh.triangles[hit.triangle];
+    const Vec3f& a = mesh.positions[t.x];
+    const Vec3f& b = mesh.positions[t.y];
+    const Vec3f& c = mesh.positions[t.z];
+    const Vec3f wo = -ray.direction;
+
+    // From the triangle, not along the ray: the error is then that of the surface, not of the ray's length.
+    const Vec3f p_object = a + hit.barycentric.x * (b - a) + hit.barycentric.y * (c - a);
+    const Vec3f position = transform.point(p_object);
+    // Rounding is relative to what is summed, the corners, not to a sum that may be 0.
+    const Vec3f corner_size = max(max(abs(a), abs(b)), abs(c));
+    const Vec3f magnitude = abs(transform.linear[0]) * corner_size.x + abs(transform.linear[1]) * corner_size.y +
+                            abs(transform.linear[2]) * corner_size.z + abs(transform.translation);
+    constexpr float error_per_magnitude = 0x1p-20f;  // a few roundings of 2^-24 each, with room
+
+    const Vec3f n_object = cross(b - a, c - a);
+    Vec3f normal_geometric = normalize(transform.normal(n_object));
+    Vec3f normal_shading = normal_geometric;
+    if (!mesh.corner_normals.empty()) {
+        const Triangle& corner = mesh.triangle_corners[hit.triangle];
+        const float w = 1.0f - hit.barycentric.x - hit.barycentric.y;
+        const Vec3f n =
+            transform.normal(w * mesh.corner_normals[corner.x] + hit.barycentric.x * mesh.corner_normals[corner.y] +
+                             hit.barycentric.y * mesh.corner_normals[corner.z]);
+        if (length_squared(n) > 0.0f) normal_shading = normalize(n);
+    }
+    // A normal of the wrong side (flipped custom normals) is turned with the surface it belongs to.
+    if (dot(normal_shading, normal_geometric) < 0.0f) normal_shading = -normal_shading;
+    if (dot(normal_geometric, wo) < 0.0f) {
+        normal_geometric = -normal_geometric;
+        normal_shading = -normal_shading;
+    }
+    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[hit.triangle];
+    const std::uint32_t material = instance.materials[std::min(slot, instance.materials.size() - 1)];
+    const Frame<float> frame = frame_from_z(bend_towards(normal_shading, wo));
+    return {.position = position,
+            .normal_geometric = normal_geometric,
+            .frame = frame,
+            .error_m = error_per_magnitude * max_component(magnitude),
+            .instance = hit.instance,
+            .material = &materials_[material],
+            .wo_local = frame.to_local(wo)};
+}
+
+}  // namespace pivot

@@ -1,0 +1,77 @@
+// The scene as it is edited: meshes, instances, materials, lights, world, camera. Bad input throws
+// std::invalid_argument that names the thing. Ids are small integers and stay valid until removed.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "core/lights/light.h"
+#include "core/scene/camera.h"
+#include "core/scene/surface_point.h"
+
+namespace pivot {
+
+struct Instance {
+    std::string name;
+    std::uint32_t mesh;
+    Transform world_from_object;
+    std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
+    std::uint32_t visibility;
+};
+
+struct NamedLight {
+    std::string name;
+    Light light;
+};
+
+class Scene {
+   public:
+    std::uint32_t add_mesh(Mesh mesh);
+    std::uint32_t add_material(const std::string& name, const Material& material);
+    std::uint32_t add_instance(Instance instance);
+    std::uint32_t add_light(const std::string& name, const Light& light);
+    void set_material(std::uint32_t id, const Material& material);
+    void set_light(std::uint32_t id, const Light& light);
+    void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
+    void remove_instance(std::uint32_t id);
+    void remove_light(std::uint32_t id);
+    void set_world(const Rgb& radiance);
+    void set_camera(const Camera& camera);
+
+    /// Makes the scene ready for rays. Throws std::invalid_argument without a camera.
+    void commit();
+
+    /// While a render holds the scene, every edit throws std::logic_error.
+    void hold() { ++holders_; }
+    void release() { --holders_; }
+
+    const Camera& camera() const { return camera_; }
+    const Rgb& world() const { return world_; }
+    /// Every light there is, in the order they were added.
+    const std::vector<Light>& lights() const { return active_lights_; }
+    /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
+    bool has_unsampled_light() const { return has_unsampled_light_; }
+    const std::string& instance_name(std::uint32_t id) const { return instances_[id]->name; }
+    std::size_t memory_bytes() const;
+
+    std::optional<RayHit> intersect(const Ray& ray, Visibility from) const { return ray_tracer_.intersect(ray, from); }
+    bool occluded(const Ray& ray) const { return ray_tracer_.occluded(ray); }
+    SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const;
+
+   private:
+    void require_editable() const;
+
+    std::vector<std::unique_ptr<const Mesh>> meshes_;
+    std::vector<Material> materials_;
+    std::vector<std::optional<Instance>> instances_;
+    std::vector<std::optional<NamedLight>> lights_;
+    std::vector<Light> active_lights_;
+    Rgb world_{0.0f};
+    Camera camera_;
+    bool has_unsampled_light_ = false;
+    RayTracer ray_tracer_;
+    std::atomic<int> holders_{0};
+};
+
+}  // namespace pivot

@@ -1,0 +1,226 @@
+"""A render as its user handles it: watched, stopped, edited, fed with wrong input."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pivot_core
+import pytest
+from scenes import add_plane, add_sphere, place, render, set_camera
+
+
+def simple_scene(size: tuple[int, int] = (32, 24)) -> pivot_core.Scene:
+    scene = pivot_core.Scene()
+    chalk = scene.add_material("chalk", pivot_core.Material(diffuse=(0.8, 0.4, 0.2), emission=(0.25, 0, 0)))
+    scene.add_instances("ball", add_sphere(scene), place(0, 0, 1), [chalk])
+    scene.add_instances("floor", add_plane(scene, 30.0), place(), [chalk])
+    scene.add_light("key", pivot_core.SphereLight((3, -3, 5), 0.5, (20, 20, 20)))
+    set_camera(scene, (0, -8, 2), (0, 0, 1), size, 0.5)
+    return scene
+
+
+def test_passes_hold_what_their_names_say() -> None:
+    scene = simple_scene()
+    session = pivot_core.Session(
+        scene, pivot_core.RenderSettings(samples=4, filter_width_px=0.0, transparent_film=True)
+    )
+    session.start()
+    assert session.wait(60.0)
+    assert (session.width, session.height) == (32, 24)
+    assert session.progress == 1.0
+    assert session.samples_done == 4
+    combined, depth, position = (session.read(name) for name in ("Combined", "Depth", "Position"))
+    assert combined.shape == (24, 32, 4)
+    assert depth.shape == (24, 32, 1)
+    assert combined[-1, 0, 3] == 0.0  # bottom row first: the last row is sky
+    assert combined[0, 16, 3] == 1.0
+    assert depth[-1, 0, 0] == np.float32(1e10)
+    hit = depth[..., 0] < 1e9
+    eye, axis = np.array([0, -8, 2]), np.array([0, 8, -1]) / np.sqrt(65)
+    np.testing.assert_allclose(depth[hit][:, 0], (position[hit] - eye) @ axis, rtol=1e-4)
+    assert np.abs(np.linalg.norm(position[hit] - [0, 0, 1], axis=-1)[position[hit][:, 2] > 0.01] - 1.0).max() < 2e-3
+    inside = session.read("Combined")[..., 3] == 1.0
+    np.testing.assert_allclose(np.linalg.norm(session.read("Normal")[inside], axis=-1), 1.0, atol=0.1)
+    np.testing.assert_allclose(session.read("DiffCol")[inside], np.tile([0.8, 0.4, 0.2], (inside.sum(), 1)), rtol=1e-5)
+    np.testing.assert_allclose(session.read("Emit")[inside], np.tile([0.25, 0, 0], (inside.sum(), 1)), rtol=1e-5)
+    with pytest.raises(ValueError, match=r"no pass 'Beauty'.*Combined"):
+        session.read("Beauty")
+
+
+def test_a_window_is_a_part_of_the_whole_picture() -> None:
+    scene = simple_scene()
+    whole = render(scene, samples=2)
+    plane = (-0.5, 0.5, -0.375, 0.375)
+    camera = np.eye(4, dtype=np.float32)
+    camera[:3, :3] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
+    camera[:3, 3] = 0, -8, 1
+    scene.set_camera(camera, plane, 32, 24)
+    whole = render(scene, samples=2)
+    scene.set_camera(camera, plane, 32, 24, window=(5, 3, 20, 15))
+    np.testing.assert_array_equal(render(scene, samples=2), whole[3:15, 5:20])
+
+
+def test_stop_ends_a_long_render_quickly_and_keeps_what_is_done() -> None:
+    session = pivot_core.Session(simple_scene((640, 360)), pivot_core.RenderSettings(samples=100_000))
+    session.start()
+    while session.samples_done < 1:
+        session.wait(0.02)
+    session.stop()
+    begin = time.perf_counter()
+    assert session.wait(5.0)
+    assert time.perf_counter() - begin < 2.0
+    assert 0.0 < session.progress < 1.0
+    assert session.read("Combined")[..., 3].min() == 1.0
+
+
+def test_time_limit_ends_the_render() -> None:
+    session = pivot_core.Session(simple_scene(), pivot_core.RenderSettings(samples=10_000_000, time_limit_s=0.3))
+    session.start()
+    assert session.wait(20.0)
+    assert session.samples_done >= 1
+
+
+def test_edits_change_the_picture_and_nothing_else() -> None:
+    scene = pivot_core.Scene()
+    red = scene.add_material("red", pivot_core.Material(diffuse=(1, 0, 0)))
+    ball = scene.add_instances("ball", add_sphere(scene), np.concatenate([place(), place(2)]), [red])
+    key = scene.add_light("key", pivot_core.SphereLight((0, -5, 5), 0.5, (50, 50, 50)))
+    set_camera(scene, (0, -8, 0), size=(32, 32))
+    first = render(scene, samples=1)
+    scene.set_material(red, pivot_core.Material(diffuse=(0, 1, 0)))
+    green = render(scene, samples=1)
+    np.testing.assert_allclose(green[..., 1], first[..., 0], rtol=1e-6)
+    assert green[..., 0].max() == 0.0
+    scene.set_light(key, pivot_core.SphereLight((0, -5, 5), 0.5, (100, 100, 100)))
+    np.testing.assert_allclose(render(scene, samples=1)[..., 1], 2 * green[..., 1], rtol=1e-5)
+    scene.set_instance_transform(ball, place(0, 0, 100)[0])
+    assert render(scene, samples=1)[16, 16, 1] == 0.0
+    scene.set_instance_transform(ball, place()[0])
+    scene.remove_instance(ball)
+    assert render(scene, samples=1)[16, 16, 1] == 0.0
+    with pytest.raises(ValueError, match="instance 0 was removed"):
+        scene.remove_instance(ball)
+    scene.remove_light(key)
+    assert render(scene, samples=1)[..., :3].max() == 0.0
+
+
+def test_a_scene_under_render_cannot_be_edited() -> None:
+    scene = simple_scene()
+    session = pivot_core.Session(scene, pivot_core.RenderSettings(samples=1_000_000))
+    session.start()
+    with pytest.raises(RuntimeError, match="being rendered"):
+        scene.set_world((1, 1, 1))
+    session.stop()
+    session.wait(5.0)
+    scene.set_world((1, 1, 1))
+
+
+def test_an_object_hidden_from_the_camera_still_casts_its_shadow() -> None:
+    scene = pivot_core.Scene()
+    chalk = scene.add_material("chalk", pivot_core.Material(diffuse=(1, 1, 1)))
+    scene.add_instances("floor", add_plane(scene), place(), [chalk])
+    scene.add_light("key", pivot_core.SphereLight((0, 0, 20), 0.01, (100, 100, 100)))
+    set_camera(scene, (0, 0, 10), size=(9, 9), half_width=0.02)
+    lit = render(scene, samples=4, max_bounces=0)
+    scene.add_instances("lid", add_sphere(scene), place(0, 0, 3), [chalk], camera_visible=False)
+    assert lit[..., 0].min() > 0.05
+    assert render(scene, samples=4, max_bounces=0)[..., 0].max() == 0.0
+
+
+def triangle(**changes: object) -> dict[str, object]:
+    mesh = {
+        "positions": np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32),
+        "corner_vertices": np.arange(3),
+        "triangle_corners": np.array([[0, 1, 2]]),
+    }
+    return {**mesh, **changes}
+
+
+BAD_MESHES = {
+    "positions must have shape": triangle(positions=np.zeros((3, 2), np.float32)),
+    "vertex 1 is not finite": triangle(positions=np.array([[0, 0, 0], [np.nan, 0, 0], [0, 1, 0]], np.float32)),
+    "triangle 0 has a vertex past the end of 3": triangle(corner_vertices=np.array([0, 1, 7])),
+    "triangle 0 has a corner past the end of 3": triangle(triangle_corners=np.array([[0, 1, -1]])),
+    "corner_normals must have shape": triangle(corner_normals=np.zeros((2, 3), np.float32)),
+    "the normal of corner 2 is not finite": triangle(corner_normals=np.array([[0, 0, 1], [0, 0, 1], [np.inf, 0, 0]])),
+    "triangle_slots must have shape": triangle(triangle_slots=np.zeros(5, np.int32)),
+}
+
+
+@pytest.mark.parametrize("message", BAD_MESHES)
+def test_a_bad_mesh_is_named_with_its_fault(message: str) -> None:
+    with pytest.raises(ValueError, match=f"mesh 'Suzanne': {message}"):
+        pivot_core.Scene().add_mesh("Suzanne", **BAD_MESHES[message])
+
+
+def test_bad_objects_lights_and_settings_are_named() -> None:
+    scene = pivot_core.Scene()
+    mesh = scene.add_mesh("t", **triangle())
+    material = scene.add_material("m", pivot_core.Material())
+    broken = place()
+    broken[0, 1, 1] = np.nan
+    with pytest.raises(ValueError, match="object 'Cube': its transform is not finite"):
+        scene.add_instances("Cube", mesh, broken, [material])
+    with pytest.raises(ValueError, match="material 7 is not in the scene"):
+        scene.add_instances("Cube", mesh, place(), [7])
+    with pytest.raises(ValueError, match="mesh 3 is not in the scene"):
+        scene.add_instances("Cube", 3, place(), [material])
+    with pytest.raises(ValueError, match="material 'Gold': a value is negative or not finite"):
+        scene.add_material("Gold", pivot_core.Material(diffuse=(np.nan, 0, 0)))
+    with pytest.raises(ValueError, match="radius_m"):
+        pivot_core.SphereLight((0, 0, 0), -1.0, (1, 1, 1))
+    with pytest.raises(ValueError, match="direction must be a unit vector"):
+        pivot_core.SunLight((0, 0, 2), 0.1, (1, 1, 1))
+    with pytest.raises(ValueError, match="span an area"):
+        pivot_core.AreaLight((0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 1, 1))
+    with pytest.raises(ValueError, match="light_sampling must be one of JOINT, SPTD"):
+        pivot_core.RenderSettings(light_sampling="MAGIC")
+    with pytest.raises(ValueError, match="samples must be at least 1"):
+        pivot_core.RenderSettings(samples=0)
+    with pytest.raises(ValueError, match="no camera"):
+        pivot_core.Session(scene, pivot_core.RenderSettings())
+
+
+def test_degenerate_geometry_renders_without_a_bad_sample() -> None:
+    """Objects scaled flat or to nothing, triangles without area, normals of length zero."""
+    scene = pivot_core.Scene()
+    material = scene.add_material("m", pivot_core.Material(diffuse=(1, 1, 1), alpha=0.1, dielectric_weight=1.0))
+    flat = place()
+    flat[0, 2, 2] = 0.0
+    scene.add_instances("flat", add_sphere(scene, 16), flat, [material])
+    scene.add_instances("nothing", add_sphere(scene, 16), place(scale=0.0), [material])
+    sliver = triangle(positions=np.array([[0, 0, 0.5], [1, 0, 0.5], [2, 0, 0.5]], np.float32))
+    scene.add_instances("sliver", scene.add_mesh("sliver", **sliver), place(), [material])
+    blank = triangle(corner_normals=np.zeros((3, 3), np.float32))
+    scene.add_instances("blank", scene.add_mesh("blank", **blank), place(0, 0, 0.7), [material])
+    scene.add_light("key", pivot_core.SphereLight((0, 0, 5), 1.0, (50, 50, 50)))
+    set_camera(scene, (0, -0.5, 6), size=(64, 64))
+    image = render(scene, samples=4)  # asserts that no sample was bad
+    assert np.isfinite(image).all()
+    assert image[32, 32, 0] > 0.1
+
+
+@pytest.mark.parametrize("arch", ["v2", "v3"])
+def test_every_build_that_this_cpu_runs_renders_the_same(arch: str) -> None:
+    here = Path(__file__).parent
+    package = Path(pivot_core.__file__).parent
+    if not list(package.glob(f"_core_{arch}*.so")) or pivot_core._cpu.level() < arch:
+        pytest.skip(f"x86-64-{arch} is not built, or not run by this CPU")
+    program = (
+        "import json, pivot_core, test_session\n"
+        "image = test_session.render(test_session.simple_scene(), samples=8)\n"
+        "print(json.dumps([pivot_core.arch, float(image[..., :3].mean())]))"
+    )
+    environment = {**os.environ, "PIVOT_ARCH": arch, "PYTHONPATH": f"{package.parent}:{here}"}
+    output = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
+    ).stdout
+    loaded, mean = json.loads(output)
+    assert loaded == arch
+    np.testing.assert_allclose(mean, render(simple_scene(), samples=8)[..., :3].mean(), rtol=1e-3)
