@@ -1,0 +1,38 @@
+"""Pivot, a render engine for light of finite size on glossy surfaces."""
+
+from __future__ import annotations
+
+import atexit
+
+import addon_utils
+
+from . import engine, panels, properties
+
+bl_info = {
+    "name": "Pivot",
+    "description": "Light of finite size on glossy surfaces, exact or without noise",
+    "author": "The Pivot authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "Render Properties > Render Engine",
+    "category": "Render",
+}
+
+_MODULES = (properties, engine, panels)
+
+
+def register() -> None:
+    for module in _MODULES:
+        module.register()
+    atexit.register(_disable)
+
+
+def unregister() -> None:
+    atexit.unregister(_disable)
+    for module in reversed(_MODULES):
+        module.unregister()
+
+
+def _disable() -> None:
+    """As a Python module, Blender 4.2 crashes and 4.5 hangs at exit while a class or handler is registered."""
+    addon_utils.disable(__name__)

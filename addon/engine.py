@@ -1,0 +1,157 @@
+"""The engine Blender calls: final and preview renders, and the Rendered viewport."""
+
+from __future__ import annotations
+
+import traceback
+from typing import Any, ClassVar
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import core
+from .export.camera import export_camera, render_frame
+from .export.context import Context
+from .export.scene import export_scene
+from .passes import fill_layer, register_passes
+from .progress import Progress
+from .report import RenderError, Reporter
+from .settings import render_settings, sample_count
+from .viewport import Viewport
+
+_POLL_S = 0.05  # how soon Esc is seen
+_UPDATE_S = 0.4  # between pictures shown while rendering
+_PREVIEW_SAMPLES = 16
+_PREVIEW_BOUNCES = 2
+
+
+class _Cancelled(Exception):
+    """The artist pressed Esc."""
+
+
+class PivotRenderEngine(bpy.types.RenderEngine):
+    bl_idname = "PIVOT"
+    bl_label = "Pivot"
+    bl_use_preview = True
+    bl_use_eevee_viewport = True  # for Material Preview
+
+    said_in_job: ClassVar[set[str]] = set()  # warnings, cleared when a render job begins
+    viewport: Viewport | None = None  # of the 3D view this engine draws
+
+    # Blender 4.4 renders nothing without it, and from 4.5 calls it twice per engine: no state is made here.
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+
+    def update_render_passes(
+        self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
+    ) -> None:
+        register_passes(self, scene, renderlayer)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Render one view layer, every view of it. Called once per view layer and frame."""
+        context: Context | None = None
+        try:
+            for view in self._views(depsgraph.scene):
+                context = self._render_view(depsgraph, view, context)
+        except _Cancelled:
+            pass
+        except KeyboardInterrupt:  # Ctrl-C, which Blender as a Python module leaves to Python
+            self._fail("interrupted")
+        except RenderError as error:
+            self._fail(str(error))
+        except MemoryError:
+            self._fail("out of memory. Fix: use fewer or simpler meshes, or instances in place of copies")
+        except Exception as error:
+            traceback.print_exc()
+            self._fail(f"internal error: {type(error).__name__}: {error}")
+
+    def _fail(self, text: str) -> None:
+        """Say what is wrong. The report makes headless Blender exit with a fault and write no picture."""
+        self.report({"ERROR"}, f"Pivot: {text}")
+        self.error_set(f"Pivot: {text}")
+
+    def _views(self, scene: bpy.types.Scene) -> list[str]:
+        if not scene.render.use_multiview:
+            return [""]
+        stereo = {"left", "right"} if scene.render.views_format == "STEREO_3D" else None
+        return [view.name for view in scene.render.views if view.use and (stereo is None or view.name in stereo)]
+
+    def _render_view(self, depsgraph: bpy.types.Depsgraph, view: str, context: Context | None) -> Context:
+        """Render one view ("": the only one). The scene is exported for the first and returned for the next."""
+        if view:
+            self.active_view_set(view)
+        frame = render_frame(depsgraph.scene.render, self.resolution_x, self.resolution_y)
+        result = self.begin_result(0, 0, *frame.window_size, layer=depsgraph.view_layer.name, view=view)
+        done = False
+        try:
+            if context is None:
+                self.update_stats("", "Exporting the scene")
+                say = _say_nothing if self.is_preview else self.report
+                reporter = Reporter(say, self.said_in_job)
+                context = export_scene(core.load(), depsgraph, reporter, self._check_cancel)
+            export_camera(context, self, frame)
+            samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
+            if self.is_preview:
+                samples, bounces = min(samples, _PREVIEW_SAMPLES), min(bounces, _PREVIEW_BOUNCES)
+            settings = render_settings(context.core, depsgraph.scene, samples, bounces)
+            self._run(context.core.Session(context.scene, settings), samples, result)
+            done = True
+        finally:
+            self.end_result(result, cancel=not done)
+        return context
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called when the Rendered viewport opens and after each edit."""
+        self.viewport = self.viewport or Viewport()
+        self.viewport.update(self, depsgraph)
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called whenever the 3D view is drawn, also when only the view has moved."""
+        if self.viewport is not None:
+            self.viewport.draw(self, context, depsgraph.scene)
+
+    def _check_cancel(self) -> None:
+        if self.test_break():
+            raise _Cancelled
+
+    def _run(self, session: Any, samples: int, result: Any) -> None:
+        """Render to the end, showing progress and, in the interface, the picture. Raises _Cancelled."""
+        progress = Progress(self, samples)
+        shown_s = 0.0
+
+        def show() -> None:
+            fill_layer(result.layers[0], session.width, session.height, session.read)
+            self.update_result(result)
+
+        session.start()
+        try:
+            while not session.wait(_POLL_S):
+                self._check_cancel()
+                progress.show(session)
+                if not bpy.app.background and progress.elapsed_s - shown_s > _UPDATE_S:
+                    show()
+                    shown_s = progress.elapsed_s
+        finally:
+            session.stop()
+        progress.show(session, last=True)
+        show()
+        for sample in session.bad_samples:
+            self.report({"WARNING"}, f"Pivot: a sample was not finite and was left out: {sample}")
+
+
+def _say_nothing(level: set[str], text: str) -> None:
+    """For previews, whose scene is Blender's."""
+
+
+@persistent
+def _forget_warnings(*_: Any) -> None:
+    PivotRenderEngine.said_in_job.clear()
+
+
+def register() -> None:
+    bpy.utils.register_class(PivotRenderEngine)
+    bpy.app.handlers.render_init.append(_forget_warnings)
+
+
+def unregister() -> None:
+    bpy.app.handlers.render_init.remove(_forget_warnings)
+    bpy.utils.unregister_class(PivotRenderEngine)

@@ -1,0 +1,150 @@
+"""Lights, in Cycles' units: [C] is Cycles' scene/light.cpp at the tag of the Blender version in hand.
+
+A light's strength is its energy times its colours and 2^exposure. From it, with A the emitting area in m^2:
+point and spot: intensity P / (4 pi); sun: irradiance P; area: radiance P / (pi A), before Blender 4.0 P / (4 A).
+A light that is not normalized keeps its radiance when it grows: P stands for P x surface area. [C]
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..report import RenderError, naming
+from .context import Context
+from .nodes import Owner, active_tree
+from .shader import light_emission
+
+_AREA_EXITANCE_PER_RADIANCE = math.pi if bpy.app.version >= (4, 0) else 4.0
+
+
+def export_light(context: Context, light_object: bpy.types.Object, object_to_world: NDArray[np.float64]) -> None:
+    """Add one light object. object_to_world: (4, 4). Raises RenderError naming the object."""
+    data: Any = light_object.data
+    if not np.isfinite(object_to_world).all():
+        raise RenderError(
+            f"light '{light_object.name}': its transform is not finite. Fix: check its location, rotation, scale, "
+            "drivers and constraints"
+        )
+    if _is_portal(data):
+        return
+    _warn_of_what_is_left_out(context, light_object)
+    with naming(f"light '{light_object.name}'", "give its power, colour and size finite values"):
+        light = _LIGHTS[data.type](context, data, _strength(context, light_object), object_to_world)
+        if light is not None:
+            context.scene.add_light(light_object.name, light)
+
+
+def _is_portal(data: Any) -> bool:
+    """Whether the light only helps Cycles to find the world through a window."""
+    return data.type == "AREA" and getattr(getattr(data, "cycles", None), "is_portal", False)
+
+
+def _strength(context: Context, light_object: bpy.types.Object) -> NDArray[np.float64]:
+    """(3,): power in W (sun: irradiance in W/m^2) times colour."""
+    data: Any = light_object.data
+    strength = np.array(data.color, float) * data.energy * 2.0 ** getattr(data, "exposure", 0.0)
+    if getattr(data, "use_temperature", False):
+        strength *= np.array(data.temperature_color)
+    tree = active_tree(data)
+    if tree is not None:
+        strength *= light_emission(tree, Owner(f"light '{light_object.name}'", context.reporter))
+    return strength
+
+
+def _normalized(data: Any) -> bool:
+    return getattr(data, "normalize", True)
+
+
+def _direction(object_to_world: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where the light shines: its -z axis, unit; zero where it has none."""
+    direction = -object_to_world[:3, 2]
+    length = float(np.linalg.norm(direction))
+    return direction / length if length > 0 else direction
+
+
+def _intensity(data: Any, strength: NDArray[np.float64]) -> NDArray[np.float64]:
+    """W/sr of a point or spot light."""
+    intensity = strength / (4 * math.pi)
+    if not _normalized(data):
+        radius_m = data.shadow_soft_size
+        intensity *= 4 * math.pi * radius_m**2 if radius_m > 0 else 4.0
+    return intensity
+
+
+def _point(context: Context, data: Any, strength: NDArray[np.float64], object_to_world: NDArray[np.float64]) -> Any:
+    return context.core.SphereLight(
+        position=object_to_world[:3, 3].tolist(),
+        radius_m=data.shadow_soft_size,
+        intensity=_intensity(data, strength).tolist(),
+    )
+
+
+def _spot(context: Context, data: Any, strength: NDArray[np.float64], object_to_world: NDArray[np.float64]) -> Any:
+    direction = _direction(object_to_world)
+    if not direction.any():
+        return None
+    return context.core.SpotLight(
+        position=object_to_world[:3, 3].tolist(),
+        radius_m=data.shadow_soft_size,
+        intensity=_intensity(data, strength).tolist(),
+        direction=direction.tolist(),
+        cos_half_angle=math.cos(data.spot_size / 2),
+        blend=data.spot_blend,
+    )
+
+
+def _sun(context: Context, data: Any, strength: NDArray[np.float64], object_to_world: NDArray[np.float64]) -> Any:
+    direction = _direction(object_to_world)
+    if not direction.any():
+        return None
+    half_angle_rad = data.angle / 2
+    irradiance = strength
+    if not _normalized(data) and half_angle_rad > 0:
+        irradiance = strength * math.pi * math.sin(half_angle_rad) ** 2
+    return context.core.SunLight(
+        direction=(-direction).tolist(), half_angle_rad=half_angle_rad, irradiance=irradiance.tolist()
+    )
+
+
+def _area(context: Context, data: Any, strength: NDArray[np.float64], object_to_world: NDArray[np.float64]) -> Any:
+    size_x = data.size
+    size_y = data.size_y if data.shape in {"RECTANGLE", "ELLIPSE"} else data.size
+    ellipse = data.shape in {"DISK", "ELLIPSE"}
+    # It emits to the side of cross(half_u, half_v), which is to be -z also when the object is mirrored.
+    half_u = object_to_world[:3, 1] * (size_y / 2)
+    half_v = object_to_world[:3, 0] * (size_x / 2)
+    if np.dot(np.cross(half_u, half_v), object_to_world[:3, 2]) > 0:
+        half_u = -half_u
+    area_m2 = 4 * float(np.linalg.norm(half_u) * np.linalg.norm(half_v)) * (math.pi / 4 if ellipse else 1.0)
+    if area_m2 == 0:
+        return None
+    radiance = strength / _AREA_EXITANCE_PER_RADIANCE
+    if _normalized(data):
+        radiance = radiance / area_m2
+    return context.core.AreaLight(
+        center=object_to_world[:3, 3].tolist(),
+        half_u=half_u.tolist(),
+        half_v=half_v.tolist(),
+        radiance=radiance.tolist(),
+        ellipse=ellipse,
+    )
+
+
+_LIGHTS = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
+
+
+def _warn_of_what_is_left_out(context: Context, light_object: bpy.types.Object) -> None:
+    data: Any = light_object.data
+    name = light_object.name
+    if data.type == "AREA" and not math.isclose(data.spread, math.pi, rel_tol=1e-5):
+        context.reporter.warn(f"area light '{name}': a spread below 180° is not supported, it shines all round")
+    if not data.use_shadow:
+        context.reporter.warn(f"light '{name}': lights without shadows are not supported, it casts them")
+    linking = getattr(light_object, "light_linking", None)  # from Blender 4.0
+    if linking and (linking.receiver_collection or linking.blocker_collection):
+        context.reporter.warn(f"light '{name}': light linking is not supported, it shines on everything")

@@ -1,0 +1,107 @@
+"""Evaluated meshes as arrays."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+# Blender 4.1 dropped the calls that compute corner normals and triangles: both are computed when read.
+_LAZY = bpy.app.version >= (4, 1)
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """V vertices, C face corners, T triangles; the arguments of pivot_core.Scene.add_mesh."""
+
+    positions: NDArray[np.float32]  # (V, 3)
+    corner_vertices: NDArray[np.int32]  # (C,)
+    triangle_corners: NDArray[np.int32]  # (T, 3)
+    corner_normals: NDArray[np.float32]  # (C, 3), unit
+    corner_uvs: NDArray[np.float32] | None  # (C, 2)
+    triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
+
+
+def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays | None:
+    """The triangles of an evaluated mesh, None without any. The arrays are copies."""
+    if not _LAZY:
+        mesh.calc_loop_triangles()
+    if not len(mesh.loop_triangles):
+        return None
+    corners, polygons = _triangles(mesh)
+    slots = _polygon_slots(mesh)
+    return MeshArrays(
+        positions=_positions(mesh),
+        corner_vertices=_corner_vertices(mesh),
+        triangle_corners=corners,
+        corner_normals=_corner_normals(mesh),
+        corner_uvs=_corner_uvs(mesh),
+        triangle_slots=None if slots is None else slots[polygons],
+    )
+
+
+def _read(collection: Any, attribute: str, dtype: DTypeLike, width: int = 1) -> NDArray[Any]:
+    values = np.empty(len(collection) * width, dtype)
+    collection.foreach_get(attribute, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def _triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(T, 3) corners and (T,) polygons, read where Blender keeps them: foreach_get takes 0.15 s a million.
+
+    Blender keeps three corners a triangle, before 4.1 followed by the polygon. The layout is no promise, so the first,
+    middle and last triangle are compared with what RNA says, and foreach_get is used should they differ.
+    """
+    triangles = mesh.loop_triangles
+    count = len(triangles)
+    stride = 3 if _LAZY else 4
+    address = triangles[0].as_pointer()
+    block = np.ctypeslib.as_array((ctypes.c_int32 * (count * stride)).from_address(address)).reshape(count, stride)
+    if all(tuple(block[i, :3]) == tuple(triangles[i].loops) for i in (0, count // 2, count - 1)):
+        corners = np.array(block[:, :3])
+    else:
+        corners = _read(triangles, "loops", np.int32, 3)
+    polygons = _read(mesh.loop_triangle_polygons, "value", np.int32) if _LAZY else block[:, 3].copy()
+    return corners, polygons
+
+
+def _positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    attribute = mesh.attributes.get("position")  # from Blender 3.5
+    if attribute is not None:
+        return _read(attribute.data, "vector", np.float32, 3)
+    return _read(mesh.vertices, "co", np.float32, 3)
+
+
+def _corner_vertices(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    attribute = mesh.attributes.get(".corner_vert")
+    if attribute is not None:
+        return _read(attribute.data, "value", np.int32)
+    return _read(mesh.loops, "vertex_index", np.int32)
+
+
+def _corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    """Unit normals of the face corners: flat and smooth faces, sharp edges, auto smooth and custom normals."""
+    if _LAZY:
+        return _read(mesh.corner_normals, "vector", np.float32, 3)
+    mesh.calc_normals_split()
+    normals = _read(mesh.loops, "normal", np.float32, 3)
+    mesh.free_normals_split()
+    return normals
+
+
+def _corner_uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    if layer is None:
+        return None
+    if hasattr(layer, "uv"):  # from Blender 3.5
+        return _read(layer.uv, "vector", np.float32, 2)
+    return _read(layer.data, "uv", np.float32, 2)
+
+
+def _polygon_slots(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
+    attribute = mesh.attributes.get("material_index")  # absent when every polygon has slot 0
+    return None if attribute is None else _read(attribute.data, "value", np.int32)

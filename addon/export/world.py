@@ -1,0 +1,26 @@
+"""The world: light of one colour from everywhere."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..report import naming
+from .context import Context
+from .nodes import Owner, active_tree
+from .shader import light_emission
+
+
+def export_world(context: Context) -> None:
+    """Set the core's world to that of the view layer."""
+    view_layer = context.depsgraph.view_layer_eval
+    world: bpy.types.World | None = getattr(view_layer, "world_override", None) or context.depsgraph.scene_eval.world
+    if world is None or not view_layer.use_sky:
+        context.scene.set_world(radiance=(0.0, 0.0, 0.0))
+        return
+    tree = active_tree(world)
+    if tree is None:
+        radiance = list(world.color)
+    else:
+        radiance = light_emission(tree, Owner(f"world '{world.name}'", context.reporter)).tolist()
+    with naming(f"world '{world.name}'", "give its colour and strength finite values"):
+        context.scene.set_world(radiance=radiance)

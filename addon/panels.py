@@ -1,0 +1,211 @@
+"""Pivot's panels, and Blender's own that make sense for it, opted in by name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from .engine import PivotRenderEngine
+from .passes import PASSES
+
+_ENGINE = PivotRenderEngine.bl_idname
+
+# Names of Blender's panels; a name that ends in * stands for all that begin like it.
+_BUILT_IN = (
+    "RENDER_PT_color_management*",
+    "RENDER_PT_simplify*",
+    "RENDER_PT_format",
+    "RENDER_PT_frame_range",
+    "RENDER_PT_time_stretching",
+    "RENDER_PT_output*",
+    "RENDER_PT_encoding*",
+    "RENDER_PT_post_processing",
+    "RENDER_PT_stamp*",
+    "RENDER_PT_stereoscopy",
+    "VIEWLAYER_PT_context_layer",
+    "VIEWLAYER_PT_layer",
+    "VIEWLAYER_PT_override",
+    "OBJECT_PT_custom_props",
+    "OBJECT_PT_visibility",
+    "DATA_PT_context_*",
+    "DATA_PT_custom_props_*",
+    "DATA_PT_camera_animation",
+    "DATA_PT_light_animation",
+    "DATA_PT_mesh_animation",
+    "DATA_PT_preview",
+    "DATA_PT_lens",
+    "DATA_PT_camera",
+    "DATA_PT_camera_display*",
+    "DATA_PT_camera_safe_areas*",
+    "DATA_PT_camera_background_image",
+    "DATA_PT_camera_stereoscopy",
+    "DATA_PT_customdata",
+    "DATA_PT_mesh_attributes",
+    "DATA_PT_normals",
+    "DATA_PT_remesh",
+    "DATA_PT_shape_keys",
+    "DATA_PT_texture_space",
+    "DATA_PT_uv_texture",
+    "DATA_PT_vertex_colors",
+    "DATA_PT_vertex_groups",
+    "EEVEE_MATERIAL_PT_context_material",
+    "EEVEE_MATERIAL_PT_surface",
+    "MATERIAL_PT_preview",
+    "MATERIAL_PT_custom_props",
+    "EEVEE_WORLD_PT_surface",
+    "WORLD_PT_context_world",
+    "WORLD_PT_custom_props",
+    "PARTICLE_PT_*",
+    "PHYSICS_PT_*",
+)
+
+
+class _PivotPanel:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = frozenset({_ENGINE})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.engine in cls.COMPAT_ENGINES
+
+
+def _columns(panel: Any) -> Any:
+    """The layout of a panel, in Blender's two-column style."""
+    panel.layout.use_property_split = True
+    panel.layout.use_property_decorate = False
+    return panel.layout
+
+
+class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
+    bl_label = "Sampling"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _columns(self)
+        pivot = context.scene.pivot
+        layout.prop(pivot, "integrator")
+        layout.prop(pivot, "samples")
+        if pivot.integrator == "MONTE_CARLO":
+            layout.prop(pivot, "light_sampling")
+            layout.prop(pivot, "max_bounces")
+            layout.prop(pivot, "seed")
+        else:
+            layout.prop(pivot, "error_budget")
+        layout.prop(pivot, "time_limit")
+
+
+class PIVOT_RENDER_PT_film(_PivotPanel, bpy.types.Panel):
+    bl_label = "Film"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _columns(self)
+        layout.prop(context.scene.render, "filter_size")
+        layout.prop(context.scene.render, "film_transparent", text="Transparent")
+
+
+class PIVOT_RENDER_PT_performance(_PivotPanel, bpy.types.Panel):
+    bl_label = "Performance"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _columns(self)
+        render = context.scene.render
+        layout.prop(render, "threads_mode")
+        threads = layout.column()
+        threads.enabled = render.threads_mode == "FIXED"
+        threads.prop(render, "threads")
+
+
+class PIVOT_VIEWLAYER_PT_passes(_PivotPanel, bpy.types.Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = _columns(self).column(heading="Include")
+        for entry in PASSES:
+            column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
+
+
+class PIVOT_OBJECT_PT_ray_visibility(_PivotPanel, bpy.types.Panel):
+    bl_label = "Ray Visibility"
+    bl_context = "object"
+    bl_parent_id = "OBJECT_PT_visibility"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _columns(self).prop(context.object, "visible_camera", text="Camera")
+
+
+class PIVOT_LIGHT_PT_light(_PivotPanel, bpy.types.Panel):
+    bl_label = "Light"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.light) and super().poll(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        light: Any = context.light
+        layout = self.layout
+        layout.row().prop(light, "type", expand=True)
+        layout = _columns(self)
+        column = layout.column()
+        if hasattr(light, "use_temperature"):  # from Blender 4.5
+            column.prop(light, "use_temperature")
+            if light.use_temperature:
+                column.prop(light, "temperature")
+        column.prop(light, "color")
+        column.prop(light, "energy")
+        if hasattr(light, "exposure"):  # from Blender 4.4
+            column.prop(light, "exposure")
+            column.prop(light, "normalize")
+        column = layout.column()
+        if light.type == "SUN":
+            column.prop(light, "angle")
+        elif light.type == "AREA":
+            column.prop(light, "shape")
+            column.prop(light, "size", text="Size X" if light.shape in {"RECTANGLE", "ELLIPSE"} else "Size")
+            if light.shape in {"RECTANGLE", "ELLIPSE"}:
+                column.prop(light, "size_y", text="Y")
+        else:
+            column.prop(light, "shadow_soft_size", text="Radius")
+        if light.type == "SPOT":
+            column.prop(light, "spot_size", text="Beam Angle")
+            column.prop(light, "spot_blend", text="Blend", slider=True)
+            column.prop(light, "show_cone")
+
+
+_CLASSES = (
+    PIVOT_RENDER_PT_sampling,
+    PIVOT_RENDER_PT_film,
+    PIVOT_RENDER_PT_performance,
+    PIVOT_VIEWLAYER_PT_passes,
+    PIVOT_OBJECT_PT_ray_visibility,
+    PIVOT_LIGHT_PT_light,
+)
+
+
+def _built_in_panels() -> list[Any]:
+    """Blender's panels that _BUILT_IN names, of those this Blender has."""
+    prefixes = tuple(name[:-1] for name in _BUILT_IN if name.endswith("*"))
+    return [
+        panel
+        for panel in bpy.types.Panel.__subclasses__()
+        if hasattr(panel, "COMPAT_ENGINES") and (panel.__name__ in _BUILT_IN or panel.__name__.startswith(prefixes))
+    ]
+
+
+def register() -> None:
+    for panel in _CLASSES:
+        bpy.utils.register_class(panel)
+    for panel in _built_in_panels():
+        panel.COMPAT_ENGINES.add(_ENGINE)
+
+
+def unregister() -> None:
+    for panel in _built_in_panels():
+        panel.COMPAT_ENGINES.discard(_ENGINE)
+    for panel in reversed(_CLASSES):
+        bpy.utils.unregister_class(panel)

@@ -1,0 +1,59 @@
+"""Render passes: what the core calls them, what each Blender calls them, and how they reach a render layer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Pass:
+    core_name: str  # of Session.read
+    name: str  # in Blender before 5.0
+    name_5_0: str
+    channels: str
+    kind: str  # of RenderEngine.register_pass
+    switch: str  # of bpy.types.ViewLayer
+
+    def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
+        return self.name_5_0 if version >= (5, 0) else self.name
+
+
+PASSES = (
+    Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
+    Pass("Depth", "Depth", "Depth", "Z", "VALUE", "use_pass_z"),
+    Pass("Normal", "Normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
+    Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
+    Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color"),
+    Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
+)
+
+
+def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
+    """Tell Blender which passes this view layer will get."""
+    for entry in PASSES:
+        if getattr(view_layer, entry.switch):
+            engine.register_pass(
+                scene, view_layer, entry.blender_name(), len(entry.channels), entry.channels, entry.kind
+            )
+
+
+def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArray[np.float32]]) -> None:
+    """Write what has been rendered into every pass of a bpy.types.RenderLayer.
+
+    read: takes the core's pass name and returns (height, width, channels) float32, bottom row first.
+    A pass that is not Pivot's (Freestyle's, say) becomes zero.
+    """
+    core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
+    pixels = [
+        np.ravel(read(core_names[target.name]))
+        if target.name in core_names
+        else np.zeros(width * height * target.channels, np.float32)
+        for target in layer.passes
+    ]
+    layer.passes.foreach_set("rect", np.concatenate(pixels))

@@ -1,0 +1,62 @@
+"""scene.pivot: the settings an artist sets, saved with the .blend."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty
+
+INTEGRATORS = (
+    ("MONTE_CARLO", "Monte Carlo", "Unbiased path tracing: for final pictures and ground truth"),
+    ("ANALYTIC", "Analytic", "Closed forms without random numbers: no noise and no flicker, direct light only"),
+)
+
+LIGHT_SAMPLING = (
+    ("JOINT", "Joint", "Samples the product of material and light exactly; the least noise"),
+    ("SPTD", "SPTD", "Samples the light through the pivoted cap of the material's lobe, with its MIS"),
+    ("MIS", "MIS", "Light and material samples, combined by multiple importance sampling"),
+    ("LIGHT", "Light", "Samples the light's cone only"),
+    ("BSDF", "BSDF", "Samples the material only"),
+)
+
+
+class PivotSettings(bpy.types.PropertyGroup):
+    integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO")
+    samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, soft_max=4096, max=1 << 20)
+    seed: IntProperty(
+        name="Seed", description="The same seed gives the same picture on the same machine", default=0, min=0
+    )
+    max_bounces: IntProperty(
+        name="Max Bounces", description="Bounces of indirect light; 0 is direct light only", default=4, min=0, max=1024
+    )
+    light_sampling: EnumProperty(
+        name="Light Sampling",
+        description="How rays towards the lights are chosen; every choice converges to one picture",
+        items=LIGHT_SAMPLING,
+        default="JOINT",
+    )
+    error_budget: FloatProperty(
+        name="Error Budget",
+        description="The largest error the analytic integrator may make by a cheaper method",
+        default=2.0,
+        min=0.01,
+        max=100.0,
+        subtype="PERCENTAGE",
+    )
+    time_limit: FloatProperty(
+        name="Time Limit",
+        description="Seconds after which a frame stops with the samples it has; 0 is no limit",
+        default=0.0,
+        min=0.0,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
+    )
+
+
+def register() -> None:
+    bpy.utils.register_class(PivotSettings)
+    bpy.types.Scene.pivot = PointerProperty(type=PivotSettings)
+
+
+def unregister() -> None:
+    del bpy.types.Scene.pivot
+    bpy.utils.unregister_class(PivotSettings)

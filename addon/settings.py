@@ -1,0 +1,32 @@
+"""scene.pivot and Blender's own render settings, as the core's."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from .report import naming
+
+
+def sample_count(depsgraph: bpy.types.Depsgraph) -> int:
+    """Samples per pixel: the view layer's own where it has them, else the scene's."""
+    return depsgraph.view_layer.samples or depsgraph.scene.pivot.samples
+
+
+def render_settings(native: Any, scene: bpy.types.Scene, samples: int, max_bounces: int) -> Any:
+    """pivot_core.RenderSettings, the samples and bounces as given. Raises RenderError where the core refuses them."""
+    pivot = scene.pivot
+    with naming(f"scene '{scene.name}', render settings", "set it in scene.pivot"):
+        return native.RenderSettings(
+            integrator=pivot.integrator,
+            samples=samples,
+            seed=pivot.seed,
+            max_bounces=max_bounces,
+            light_sampling=pivot.light_sampling,
+            error_budget_percent=pivot.error_budget,
+            time_limit_s=pivot.time_limit,
+            threads=scene.render.threads,
+            filter_width_px=2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it
+            transparent_film=scene.render.film_transparent,
+        )

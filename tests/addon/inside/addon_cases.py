@@ -1,0 +1,65 @@
+"""The addon as an addon: its settings on the way to the core, its panels, and that it comes and goes cleanly."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import addon_utils
+import bpy
+import parts
+from recording import record
+
+
+def main(folder: Path) -> Any:
+    return {"defaults": _defaults(), "settings": _settings(), "layers": _layer_samples(), "toggled": _toggled()}
+
+
+def _defaults() -> Any:
+    parts.clear()
+    parts.camera()
+    return asdict(record().settings)
+
+
+def _settings() -> Any:
+    parts.clear()
+    parts.camera()
+    pivot, render = bpy.context.scene.pivot, bpy.context.scene.render
+    pivot.integrator, pivot.light_sampling = "ANALYTIC", "SPTD"
+    pivot.samples, pivot.seed, pivot.max_bounces = 7, 3, 0
+    pivot.error_budget, pivot.time_limit = 0.5, 12
+    render.threads_mode, render.threads = "FIXED", 3
+    render.filter_size, render.film_transparent = 2.0, True
+    return asdict(record().settings)
+
+
+def _layer_samples() -> Any:
+    """Samples of the settings handed over last, of a layer with its own."""
+    parts.clear()
+    parts.camera()
+    bpy.context.view_layer.samples = 5
+    return record().settings.samples
+
+
+def _toggled() -> Any:
+    """What is left of the addon when it is disabled, and whether it works when enabled again."""
+    addon_utils.disable("pivot")
+    left = {
+        "settings": hasattr(bpy.types.Scene, "pivot"),
+        "engine": hasattr(bpy.types, "PivotRenderEngine"),
+        "panels": [p.__name__ for p in _panels() if p.__name__.startswith("PIVOT_")],
+        "opted_in": [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())],
+        "handlers": [h.__module__ for h in bpy.app.handlers.render_init if h.__module__.startswith("pivot")],
+    }
+    addon_utils.enable("pivot")
+    sys.modules["pivot.engine"].PivotRenderEngine.said_in_job.clear()
+    parts.clear()
+    parts.camera()
+    opted_in = [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())]
+    return {"left": left, "opted_in": opted_in, "again": asdict(record().settings)}
+
+
+def _panels() -> list[Any]:
+    return [panel for panel in bpy.types.Panel.__subclasses__() if panel.is_registered]

@@ -1,0 +1,156 @@
+"""One scene per light type, rendered by Cycles and by Pivot in each light sampling; as files in the folder.
+
+Lights and materials are what both engines mean by them: from Blender 4.0 on spheres without soft falloff, and plastic.
+Before, Cycles takes a sphere for a disk and dims a spot towards its cone's edge, and its Principled is another: small
+spheres, a narrow cone and no plastic there.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import bpy
+import parts
+
+OLD = bpy.app.version < (4, 0)
+SIZE = 48
+CYCLES_SAMPLES = 256
+PIVOT_SAMPLES = {"JOINT": 256, "SPTD": 256, "MIS": 256, "LIGHT": 256, "BSDF": 1024}
+IN_EVERY_SAMPLING = ("point", "spot", "sun", "disk", "bounces")
+SPHERE: dict[str, Any] = {"shadow_soft_size": 0.02} if OLD else {"shadow_soft_size": 0.4, "use_soft_falloff": False}
+CONE = {"spot_size": math.radians(14 if OLD else 70), "spot_blend": 0.3}
+LIGHTS: dict[str, dict[str, Any]] = {
+    "point": {"type": "POINT", "energy": 200} | SPHERE,
+    "spot": {"type": "SPOT", "energy": 200} | SPHERE | CONE,
+    "sun": {"type": "SUN", "energy": 2, "angle": 0.1 if OLD else 0.6},
+    "square": {"type": "AREA", "energy": 60, "shape": "SQUARE", "size": 2.5},
+    "rectangle": {"type": "AREA", "energy": 60, "shape": "RECTANGLE", "size": 3, "size_y": 1},
+    "disk": {"type": "AREA", "energy": 60, "shape": "DISK", "size": 2.5},
+    "ellipse": {"type": "AREA", "energy": 60, "shape": "ELLIPSE", "size": 3, "size_y": 1},
+}
+if bpy.app.version >= (4, 4):
+    LIGHTS["exposed"] = {"type": "POINT", "energy": 100, "exposure": 1} | SPHERE
+    LIGHTS["raw"] = {"type": "AREA", "energy": 30, "shape": "DISK", "size": 2.5, "normalize": False}
+    LIGHTS["warm"] = {"type": "POINT", "energy": 200, "use_temperature": True, "temperature": 3000} | SPHERE
+
+BLUE = (0.1, 0.3, 0.6, 1)
+MATERIALS: dict[str, tuple[str, str, dict[str, Any]]] = {
+    "glossy": ("ShaderNodeBsdfGlossy", "GGX", {"Color": BLUE, "Roughness": 0.4}),
+}
+if not OLD:
+    PRINCIPLED = {
+        "plastic": ("GGX", {"Roughness": 0.3}),
+        "rough_plastic": ("MULTI_GGX", {"Roughness": 0.9}),
+        "dense_plastic": ("MULTI_GGX", {"Roughness": 0.3, "IOR": 2.0}),
+        "tinted_plastic": ("MULTI_GGX", {"Specular_Tint": (1, 0.3, 0.2, 1), "Specular_IOR_Level": 1.0}),
+        "metal": ("MULTI_GGX", {"Roughness": 0.8, "Metallic": 1}),
+        "half_metal": ("MULTI_GGX", {"Roughness": 0.4, "Metallic": 0.5}),
+        "lamp": ("GGX", {"Emission_Color": (1, 0.5, 0.2, 1), "Emission_Strength": 0.5}),
+    }
+    for name, (distribution, inputs) in PRINCIPLED.items():
+        MATERIALS[name] = ("ShaderNodeBsdfPrincipled", distribution, {"Base_Color": BLUE} | inputs)
+    MATERIALS["rough_glossy"] = ("ShaderNodeBsdfGlossy", "MULTI_GGX", {"Color": BLUE, "Roughness": 0.8})
+
+
+def main(folder: Path) -> Any:
+    """Returns the names of each light sampling's scenes, and those of the materials from left to right."""
+    rendered: dict[str, list[str]] = {light_sampling: [] for light_sampling in PIVOT_SAMPLES}
+    for name, light in (LIGHTS | {"world": {}, "bounces": LIGHTS["square"]}).items():
+        _scene(name, dict(light))
+        bounces = 3 if name == "bounces" else 0
+        _cycles(folder / f"{name}_CYCLES.exr", bounces)
+        for light_sampling, scenes in rendered.items():
+            if _is_compared(name, light_sampling):
+                _pivot(folder / f"{name}_{light_sampling}.exr", bounces, light_sampling)
+                scenes.append(name)
+    return {"lights": rendered, "materials": _materials(folder)}
+
+
+def _is_compared(name: str, light_sampling: str) -> bool:
+    """The default everywhere, the others on some; material samples alone would not find a small light."""
+    small = {"point", "spot", "sun"} if OLD else {"point", "spot"}
+    return light_sampling == "JOINT" or (name in IN_EVERY_SAMPLING and not (light_sampling == "BSDF" and name in small))
+
+
+def _scene(name: str, light: dict[str, Any]) -> None:
+    """A diffuse ground with a plastic and a metal ball, the light obliquely above."""
+    parts.clear()
+    parts.size(SIZE, SIZE)
+    parts.camera((0, -7, 5), (math.radians(54), 0, 0)).data.lens = 40
+    ground = parts.quad("ground", material=parts.shaded("ground", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.5, 0.3, 1))[0])
+    ground.scale = (4, 4, 1)
+    blue = (0.1, 0.3, 0.6, 1)
+    if OLD:
+        plastic, _ = parts.shaded("matte", "ShaderNodeBsdfDiffuse", Color=blue)
+    else:
+        plastic, node = parts.shaded("plastic", "ShaderNodeBsdfPrincipled", Base_Color=blue, Roughness=0.3)
+        node.distribution = "GGX"
+    _ball("plastic", (-1.2, 0, 1), plastic)
+    metal, node = parts.shaded("metal", "ShaderNodeBsdfGlossy", Color=(0.9, 0.7, 0.4, 1), Roughness=0.3)
+    node.distribution = "GGX"
+    _ball("metal", (1.2, 0, 1), metal)
+    if light:
+        turned = parts.light(name, light.pop("type"), (1.5, -2, 4), **light)
+        turned.rotation_euler = (math.radians(27), math.radians(20), 0.3)
+        turned.scale = (1.2, 0.8, 1) if turned.data.type == "AREA" else (1, 1, 1)
+    else:
+        parts.world((0.5, 0.7, 0.9))
+
+
+def _materials(folder: Path) -> list[str]:
+    """A row of balls, one of each material, under an area light and the world; SIZE pixels a ball."""
+    parts.clear()
+    parts.size(SIZE * len(MATERIALS), SIZE)
+    camera = parts.camera((0, -60, 0), (math.pi / 2, 0, 0))
+    camera.data.angle = 2 * math.atan(1.1 * len(MATERIALS) / 60)
+    for index, (name, (kind, distribution, inputs)) in enumerate(MATERIALS.items()):
+        material, node = parts.shaded(name, kind, **inputs)
+        node.distribution = distribution
+        _ball(name, (2.2 * (index - (len(MATERIALS) - 1) / 2), 0, 0), material)
+    parts.world((0.5, 0.5, 0.5))
+    light = parts.light("key", "AREA", (0, -12, 12), energy=3000, shape="SQUARE", size=4)
+    light.rotation_euler = (math.radians(45), 0, 0)
+    _cycles(folder / "materials_CYCLES.exr", 0)
+    _pivot(folder / "materials_JOINT.exr", 0, "JOINT")
+    return list(MATERIALS)
+
+
+def _ball(name: str, location: tuple[float, float, float], material: Any) -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24, location=location)
+    ball = bpy.context.object
+    ball.name = name
+    ball.data.materials.append(material)
+    ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+
+
+def _cycles(path: Path, bounces: int) -> None:
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    settings = scene.cycles
+    settings.device = "CPU"
+    settings.samples = CYCLES_SAMPLES
+    settings.use_adaptive_sampling = False
+    settings.use_denoising = False
+    settings.sample_clamp_indirect = 0
+    settings.blur_glossy = 0
+    settings.max_bounces = settings.diffuse_bounces = settings.glossy_bounces = bounces
+    _save(path)
+
+
+def _pivot(path: Path, bounces: int, light_sampling: str) -> None:
+    scene = bpy.context.scene
+    scene.render.engine = "PIVOT"
+    scene.pivot.samples = PIVOT_SAMPLES[light_sampling]
+    scene.pivot.max_bounces = bounces
+    scene.pivot.light_sampling = light_sampling
+    _save(path)
+
+
+def _save(path: Path) -> None:
+    render = bpy.context.scene.render
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_depth = "32"
+    render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)

@@ -1,0 +1,97 @@
+"""Lights and worlds as exported."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import bpy
+import parts
+from recording import record
+
+HAS_EXPOSURE = bpy.app.version >= (4, 4)  # and normalize, temperature
+
+
+def main(folder: Path) -> Any:
+    return {"lights": _lights(), "reports": _reports(), "worlds": _worlds()}
+
+
+def _lights() -> Any:
+    parts.clear()
+    parts.camera()
+    light = parts.light
+    light("point", "POINT", (1, 2, 3), energy=100, color=(1, 0.5, 0.25), shadow_soft_size=0.3)
+    light("tiny", "POINT", energy=10, shadow_soft_size=0.0)
+    light("scaled", "POINT", energy=10, shadow_soft_size=0.3).scale = (5, 5, 5)
+    cone: dict[str, Any] = {"spot_size": math.radians(50), "spot_blend": 0.2}
+    light("spot", "SPOT", (0, 0, 2), energy=40, shadow_soft_size=0.1, **cone)
+    light("turned", "SPOT", energy=40, **cone).rotation_euler = (math.pi / 2, 0, 0)
+    light("sun", "SUN", energy=3, color=(1, 1, 0.5), angle=0.2).rotation_euler = (0, math.pi / 2, 0)
+    light("square", "AREA", (0, 0, 4), energy=12, shape="SQUARE", size=2)
+    light("rectangle", "AREA", energy=12, shape="RECTANGLE", size=2, size_y=0.5)
+    light("disk", "AREA", energy=12, shape="DISK", size=2)
+    light("ellipse", "AREA", energy=12, shape="ELLIPSE", size=2, size_y=0.5)
+    light("stretched", "AREA", energy=12, shape="SQUARE", size=1).scale = (2, 3, 1)
+    light("mirrored", "AREA", energy=12, shape="SQUARE", size=1).scale = (-1, 1, 1)
+    light("inverted", "AREA", energy=12, shape="SQUARE", size=1).scale = (1, 1, -1)
+    light("flat", "AREA", energy=12, shape="SQUARE", size=1).scale = (0, 1, 1)
+    light("portal", "AREA", energy=12).data.cycles.is_portal = True
+    light("hidden", "POINT", energy=10).hide_render = True
+    shaded = light("shaded", "POINT", energy=4 * math.pi)
+    shaded.data.use_nodes = True
+    emission = shaded.data.node_tree.nodes["Emission"]
+    emission.inputs["Color"].default_value = (0.5, 0.25, 1, 1)
+    emission.inputs["Strength"].default_value = 3
+    if HAS_EXPOSURE:
+        light("exposed", "POINT", energy=4 * math.pi, exposure=3)
+        light("warm", "POINT", energy=4 * math.pi, use_temperature=True, temperature=3000)
+        light("raw_point", "POINT", energy=8, shadow_soft_size=0.5, normalize=False)
+        light("raw_tiny", "POINT", energy=math.pi, shadow_soft_size=0.0, normalize=False)
+        light("raw_area", "AREA", energy=math.pi, shape="DISK", size=3, normalize=False)
+        light("raw_sun", "SUN", energy=2, angle=0.6, normalize=False)
+    recording = record()
+    return {name: recording.light(name) for name in recording.lights}
+
+
+def _reports() -> Any:
+    """What is said of lights, objects and a camera that lose something, in two layers and frames of one job."""
+    parts.clear()
+    parts.camera()
+    parts.light("beam", "AREA", spread=1.0)
+    fill = parts.light("fill", "POINT", use_shadow=False)
+    if bpy.app.version >= (4, 0):
+        fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
+    bpy.context.scene.camera.data.dof.use_dof = True
+    bpy.context.scene.render.use_motion_blur = True
+    catcher = parts.quad("catcher")
+    catcher.is_shadow_catcher, catcher.visible_shadow = True, False
+    hair = parts.quad("hair")
+    hair.modifiers.new("hair", "PARTICLE_SYSTEM")
+    hair.particle_systems[0].settings.type = "HAIR"
+    bpy.context.scene.view_layers.new("second")
+    bpy.context.scene.frame_end = 2
+    bpy.context.scene.render.filepath = str(Path(bpy.app.tempdir) / "reports")
+    return record(animation=True).reports
+
+
+def _worlds() -> Any:
+    parts.clear()
+    parts.camera()
+    none = record().world
+    parts.world((0.1, 0.2, 0.3)).node_tree.nodes["Background"].inputs["Strength"].default_value = 2
+    constant = record()
+    return {"none": none, "constant": constant.world, "constant_reports": constant.reports} | _environment()
+
+
+def _environment() -> Any:
+    """A world lit by an image whose upper half is bright."""
+    image = bpy.data.images.new("sky", 8, 4, float_buffer=True)
+    image.pixels.foreach_set([0.0, 0.0, 0.0, 1.0] * 16 + [1.0, 2.0, 4.0, 1.0] * 16)
+    tree = bpy.context.scene.world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexEnvironment")
+    texture.image = image
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    recording = record()
+    bpy.context.view_layer.use_sky = False
+    return {"image": recording.world, "image_reports": recording.reports, "no_sky": record().world}

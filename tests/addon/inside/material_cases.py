@@ -1,0 +1,223 @@
+"""Materials as exported, and what is said of them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import bpy
+import parts
+from recording import record
+
+NEW = bpy.app.version >= (4, 0)
+SPECULAR = "Specular IOR Level" if NEW else "Specular"
+EMISSION = "Emission Color" if NEW else "Emission"
+RED, GREEN, WHITE = (0.8, 0.1, 0.05, 1), (0.1, 0.6, 0.2, 1), (1, 1, 1, 1)
+
+
+def main(folder: Path) -> Any:
+    parts.clear()
+    parts.camera()
+    for make in (_exact, _networks, _nearest, _special):
+        make()
+    second = parts.quad("second user", material=bpy.data.materials["noise"])  # reported with its first user only
+    second.location.x = 9
+    recording = record()
+    return {
+        "materials": {name: asdict(material) for name, material in recording.materials.items()},
+        "reports": recording.reports,
+        "override": _override(),
+    }
+
+
+def use(material: Any) -> None:
+    parts.quad(f"{material.name} quad", material=material)
+
+
+def shader(name: str, kind: str, **inputs: Any) -> Any:
+    """A used material of one shader node; returns the node."""
+    material, node = parts.shaded(name, kind, **inputs)
+    use(material)
+    return node
+
+
+def feed(node: Any, socket: str, kind: str, output: int = 0) -> Any:
+    """A new node linked to an input of another."""
+    feeding = node.id_data.nodes.new(kind)
+    node.id_data.links.new(feeding.outputs[output], node.inputs[socket])
+    return feeding
+
+
+def _exact() -> None:
+    principled = "ShaderNodeBsdfPrincipled"
+    shader("default", principled).distribution = "GGX"
+    shader("plastic", principled, Base_Color=RED, Roughness=0.3, **{SPECULAR: 0.25}).distribution = "MULTI_GGX"
+    shader("metal", principled, Base_Color=RED, Metallic=1, Roughness=0.2)
+    if NEW:
+        shader("edged_metal", principled, Base_Color=RED, Metallic=1, Specular_Tint=(0.9, 0.9, 0.9, 1))
+    if bpy.app.version >= (4, 3):
+        node = shader("metallic_node", "ShaderNodeBsdfMetallic", Base_Color=RED, Edge_Tint=(0.9, 0.9, 0.9, 1))
+        node.fresnel_type = "F82"
+    shader("half_metal", principled, Base_Color=RED, Metallic=0.5, Roughness=0.2)
+    shader("matte", principled, Base_Color=RED, **{SPECULAR: 0})
+    shader("dense", principled, IOR=2.0)
+    shader("tinted", principled, Base_Color=RED, Specular_Tint=(0.5, 1, 0.25, 1) if NEW else 0.5)
+    shader("lamp", principled, Emission_Strength=4, **{EMISSION: (0.5, 0.25, 1, 1)})
+    shader("diffuse", "ShaderNodeBsdfDiffuse", Color=RED, Roughness=0)
+    shader("glossy", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.4).distribution = "GGX"
+    shader("glossy_multi", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.4).distribution = "MULTI_GGX"
+    shader("emission", "ShaderNodeEmission", Color=(1, 0.5, 0.25, 1), Strength=6)
+
+
+def _networks() -> None:
+    mixed, tree = parts.material("mixed")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    mix.inputs[0].default_value = 0.25
+    diffuse, glossy = (tree.nodes.new(f"ShaderNodeBsdf{kind}") for kind in ("Diffuse", "Glossy"))
+    diffuse.inputs["Color"].default_value, glossy.inputs["Color"].default_value = RED, GREEN
+    glossy.distribution = "GGX"
+    for index, node in enumerate((diffuse, glossy), start=1):
+        tree.links.new(node.outputs[0], mix.inputs[index])
+    add = tree.nodes.new("ShaderNodeAddShader")
+    emission = tree.nodes.new("ShaderNodeEmission")
+    emission.inputs["Strength"].default_value = 2
+    tree.links.new(mix.outputs[0], add.inputs[0])
+    tree.links.new(emission.outputs[0], add.inputs[1])
+    tree.links.new(add.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(mixed)
+
+    # A colour through a reroute and a muted node; a number from a Value node.
+    routed = shader("routed", "ShaderNodeBsdfGlossy")
+    routed.distribution = "GGX"
+    feed(routed, "Roughness", "ShaderNodeValue").outputs[0].default_value = 0.5
+    muted = feed(routed, "Color", "ShaderNodeInvert")
+    muted.mute = True
+    reroute = feed(muted, "Color", "NodeReroute")
+    rgb = routed.id_data.nodes.new("ShaderNodeRGB")
+    rgb.outputs[0].default_value = GREEN
+    routed.id_data.links.new(rgb.outputs[0], reroute.inputs[0])
+
+    _group()
+
+    # Two outputs: Cycles' own counts.
+    outputs = shader("outputs", "ShaderNodeBsdfDiffuse", Color=RED)
+    tree = outputs.id_data
+    tree.nodes["Material Output"].target = "EEVEE"
+    other = tree.nodes.new("ShaderNodeOutputMaterial")
+    other.target = "CYCLES"
+    green = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    green.inputs["Color"].default_value = GREEN
+    tree.links.new(green.outputs[0], other.inputs["Surface"])
+
+
+def _group() -> None:
+    """A diffuse shader in a group in a group, its colour an input of the outer one."""
+    inner, outer = (_passing_group(name) for name in ("inner", "outer"))
+    diffuse = inner.nodes.new("ShaderNodeBsdfDiffuse")
+    inner.links.new(inner.nodes["Group Input"].outputs[0], diffuse.inputs["Color"])
+    inner.links.new(diffuse.outputs[0], inner.nodes["Group Output"].inputs[0])
+    nested = outer.nodes.new("ShaderNodeGroup")
+    nested.node_tree = inner
+    outer.links.new(outer.nodes["Group Input"].outputs[0], nested.inputs[0])
+    outer.links.new(nested.outputs[0], outer.nodes["Group Output"].inputs[0])
+    material, tree = parts.material("grouped")
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = outer
+    group.inputs[0].default_value = GREEN
+    tree.links.new(group.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(material)
+
+
+def _passing_group(name: str) -> Any:
+    tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
+    if NEW:
+        tree.interface.new_socket("Color", in_out="INPUT", socket_type="NodeSocketColor")
+        tree.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    else:
+        tree.inputs.new("NodeSocketColor", "Color")
+        tree.outputs.new("NodeSocketShader", "Shader")
+    for kind in ("Input", "Output"):
+        tree.nodes.new(f"NodeGroup{kind}").name = f"Group {kind}"
+    return tree
+
+
+def _nearest() -> None:
+    """What Pivot has no exact meaning for."""
+    image = bpy.data.images.new("half red", 4, 2)
+    image.pixels.foreach_set([1.0, 0.0, 0.0, 1.0] * 4 + [0.0, 0.0, 0.0, 1.0] * 4)
+    feed(shader("image", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeTexImage").image = image
+    feed(shader("no_image", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeTexImage")
+    feed(shader("noise", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeTexNoise", output=1)
+    checker = feed(shader("checker", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeTexChecker")
+    checker.inputs["Color1"].default_value, checker.inputs["Color2"].default_value = (1, 0, 0, 1), (0, 1, 0, 1)
+    ramp = feed(shader("ramp", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeValToRGB")
+    ramp.name = "Ramp"
+    ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (0, 0, 0, 1), (1, 0, 0.5, 1)
+    feed(shader("rough_noise", "ShaderNodeBsdfGlossy", Roughness=0.3), "Roughness", "ShaderNodeTexNoise")
+    feed(shader("bump", "ShaderNodeBsdfDiffuse", Color=RED), "Normal", "ShaderNodeBump")
+    shader("glass", "ShaderNodeBsdfGlass", Color=GREEN, IOR=1.5, Roughness=0.5).distribution = "GGX"
+    shader("translucent", "ShaderNodeBsdfTranslucent", Color=GREEN)
+    shader("see_through", "ShaderNodeBsdfTransparent")
+    shader("oren_nayar", "ShaderNodeBsdfDiffuse", Color=RED, Roughness=0.5)
+    shader("beckmann", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.5).distribution = "BECKMANN"
+    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Transmission Weight" if NEW else "Transmission": 1.0}
+    shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **left_out)
+    feed(shader("fog", "ShaderNodeVolumePrincipled"), "Color", "ShaderNodeTexNoise")
+
+    smoke = shader("smoke", "ShaderNodeBsdfDiffuse", Color=RED)
+    for socket, kind in (("Volume", "ShaderNodeVolumeScatter"), ("Displacement", "ShaderNodeDisplacement")):
+        feed(smoke.id_data.nodes["Material Output"], socket, kind)
+
+    leaf, tree = parts.material("leaf")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    diffuse, clear = (tree.nodes.new(f"ShaderNodeBsdf{kind}") for kind in ("Diffuse", "Transparent"))
+    diffuse.inputs["Color"].default_value = GREEN
+    tree.links.new(clear.outputs[0], mix.inputs[1])
+    tree.links.new(diffuse.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(leaf)
+
+    unknown, tree = parts.material("unknown_factor")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    feed(mix, mix.inputs[0].name, "ShaderNodeTexNoise")
+    diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = RED
+    tree.links.new(diffuse.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(unknown)
+
+    lacquer, tree = parts.material("lacquer")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    for index, roughness in enumerate((0.5, 0.1), start=1):
+        glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
+        glossy.distribution = "GGX"
+        glossy.inputs["Roughness"].default_value = roughness
+        glossy.inputs["Color"].default_value = (1 / index, 1 / index, 1 / index, 1)
+        tree.links.new(glossy.outputs[0], mix.inputs[index])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(lacquer)
+
+
+def _special() -> None:
+    loop, tree = parts.material("loop")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(mix.outputs[0], mix.inputs[1])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(loop)
+    use(parts.material("no_surface")[0])
+    parts.quad("bare")
+    if bpy.app.version < (5, 0):
+        plain = bpy.data.materials.new("plain")
+        plain.use_nodes, plain.diffuse_color = False, RED
+        use(plain)
+
+
+def _override() -> Any:
+    """The materials of a render whose view layer overrides them."""
+    parts.clear()
+    parts.camera()
+    parts.quad("red", material=parts.shaded("red", "ShaderNodeBsdfDiffuse")[0])
+    parts.quad("bare")
+    bpy.context.view_layer.material_override = parts.shaded("clay", "ShaderNodeBsdfDiffuse")[0]
+    return [group.materials for group in record().instances]

@@ -1,0 +1,215 @@
+"""pivot_core's interface without its work: what the addon hands over in a render, as plain values.
+
+Calls have the core's own parameters, so a misnamed one fails as it would there.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields
+from types import ModuleType, SimpleNamespace
+from typing import Any
+from unittest.mock import patch
+
+import bpy
+import numpy as np
+
+
+@dataclass
+class Material:
+    diffuse: Any = (0, 0, 0)
+    alpha: float = 0.5
+    conductor_f0: Any = (0, 0, 0)
+    conductor_f90: Any = (0, 0, 0)
+    conductor_weight: float = 1.0
+    dielectric_weight: float = 0.0
+    dielectric_ior: float = 1.5
+    dielectric_tint: Any = (1, 1, 1)
+    multiscatter: bool = False
+    emission: Any = (0, 0, 0)
+
+
+@dataclass
+class SphereLight:
+    position: Any
+    radius_m: float
+    intensity: Any
+
+
+@dataclass
+class SpotLight:
+    position: Any
+    radius_m: float
+    intensity: Any
+    direction: Any
+    cos_half_angle: float
+    blend: float
+
+
+@dataclass
+class SunLight:
+    direction: Any
+    half_angle_rad: float
+    irradiance: Any
+
+
+@dataclass
+class AreaLight:
+    center: Any
+    half_u: Any
+    half_v: Any
+    radiance: Any
+    ellipse: bool = False
+
+
+@dataclass
+class RenderSettings:
+    integrator: str
+    samples: int
+    seed: int
+    max_bounces: int
+    light_sampling: str
+    error_budget_percent: float
+    time_limit_s: float
+    threads: int
+    filter_width_px: float
+    transparent_film: bool
+
+
+@dataclass
+class Recording:
+    """What one render handed over: the scene of its last view layer and frame, and all cameras and reports."""
+
+    meshes: list[SimpleNamespace] = field(default_factory=list)
+    instances: list[SimpleNamespace] = field(default_factory=list)
+    materials: dict[str, Material] = field(default_factory=dict)
+    lights: dict[str, Any] = field(default_factory=dict)
+    world: Any = None
+    cameras: list[SimpleNamespace] = field(default_factory=list)
+    settings: RenderSettings | None = None
+    reports: list[str] = field(default_factory=list)
+
+    @property
+    def camera(self) -> SimpleNamespace:
+        return self.cameras[-1]
+
+    def light(self, name: str) -> dict[str, Any]:
+        light = self.lights[name]
+        return {"type": type(light).__name__} | {f.name: getattr(light, f.name) for f in fields(light)}
+
+
+class Scene:
+    def __init__(self) -> None:
+        self.recording = recording = _recordings[-1]
+        for collection in (recording.meshes, recording.instances, recording.materials, recording.lights):
+            collection.clear()  # each view layer and frame has a scene of its own
+
+    def add_mesh(
+        self,
+        name: str,
+        positions: Any,
+        corner_vertices: Any,
+        triangle_corners: Any,
+        corner_normals: Any = None,
+        corner_uvs: Any = None,
+        triangle_slots: Any = None,
+    ) -> int:
+        mesh = dict(locals())
+        del mesh["self"]
+        self.recording.meshes.append(SimpleNamespace(**mesh))
+        return len(self.recording.meshes) - 1
+
+    def add_instances(
+        self, name: str, mesh: int, object_to_world: Any, materials: Any, camera_visible: bool = True
+    ) -> int:
+        materials = [list(self.recording.materials)[material] for material in materials]
+        self.recording.instances.append(
+            SimpleNamespace(
+                name=name,
+                mesh=mesh,
+                object_to_world=np.array(object_to_world),
+                materials=materials,
+                camera_visible=camera_visible,
+            )
+        )
+        return len(self.recording.instances) - 1
+
+    def add_material(self, name: str, material: Material) -> int:
+        assert name not in self.recording.materials, f"material {name} came twice"
+        self.recording.materials[name] = material
+        return len(self.recording.materials) - 1
+
+    def add_light(self, name: str, light: Any) -> int:
+        self.recording.lights[name] = light
+        return len(self.recording.lights) - 1
+
+    def set_world(self, radiance: Any) -> None:
+        self.recording.world = list(radiance)
+
+    def set_camera(
+        self,
+        camera_to_world: Any,
+        view_plane: Any,
+        width: int,
+        height: int,
+        window: Any,
+        clip_start_m: float,
+        clip_end_m: float,
+    ) -> None:
+        camera = dict(locals())
+        del camera["self"]
+        self.recording.cameras.append(SimpleNamespace(**camera))
+
+
+class Session:
+    progress = 1.0
+    bad_samples: tuple[str, ...] = ()
+
+    def __init__(self, scene: Scene, settings: RenderSettings) -> None:
+        scene.recording.settings = settings
+        self.samples_done = settings.samples
+        x0, y0, x1, y1 = scene.recording.cameras[-1].window
+        self.width, self.height = x1 - x0, y1 - y0
+
+    def start(self) -> None:
+        pass
+
+    def wait(self, seconds: float) -> bool:
+        return True
+
+    def stop(self) -> None:
+        pass
+
+    def read(self, name: str) -> Any:
+        channels = {"Combined": 4, "Depth": 1}.get(name, 3)
+        return np.zeros((self.height, self.width, channels), np.float32)
+
+
+_recordings: list[Recording] = []
+
+
+@contextmanager
+def _in_place_of_the_core() -> Iterator[None]:
+    core: Any = ModuleType("pivot_core")
+    for part in (Material, SphereLight, SpotLight, SunLight, AreaLight, RenderSettings, Scene, Session):
+        setattr(core, part.__name__, part)
+    engine: Any = sys.modules["pivot.engine"]
+    reporter = engine.Reporter
+    with (
+        patch.dict(sys.modules, pivot_core=core),
+        patch.object(
+            engine, "Reporter", lambda _, said: reporter(lambda _, text: _recordings[-1].reports.append(text), said)
+        ),
+    ):
+        yield
+
+
+def record(**operator_arguments: Any) -> Recording:
+    """Render the scene and return what the addon handed over."""
+    _recordings.append(Recording())
+    bpy.context.scene.render.engine = "PIVOT"
+    with _in_place_of_the_core():
+        bpy.ops.render.render(**operator_arguments)
+    return _recordings[-1]

@@ -1,0 +1,70 @@
+"""Settings reach the core; the addon leaves nothing behind when it is disabled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def cases(inside: Callable[[str], Any]) -> Any:
+    return inside("addon_cases")
+
+
+def test_defaults(cases: Any) -> None:
+    assert cases["defaults"] | {"threads": 0} == {
+        "integrator": "MONTE_CARLO",
+        "samples": 64,
+        "seed": 0,
+        "max_bounces": 4,
+        "light_sampling": "JOINT",
+        "error_budget_percent": 2.0,
+        "time_limit_s": 0.0,
+        "threads": 0,
+        "filter_width_px": 3.0,
+        "transparent_film": False,
+    }
+    assert cases["defaults"]["threads"] >= 1
+
+
+def test_settings(cases: Any) -> None:
+    assert cases["settings"] == {
+        "integrator": "ANALYTIC",
+        "samples": 7,
+        "seed": 3,
+        "max_bounces": 0,
+        "light_sampling": "SPTD",
+        "error_budget_percent": 0.5,
+        "time_limit_s": 12.0,
+        "threads": 3,
+        "filter_width_px": 4.0,
+        "transparent_film": True,
+    }
+
+
+def test_a_view_layer_may_have_its_own_samples(cases: Any) -> None:
+    assert cases["layers"] == 5
+
+
+def test_disabling_leaves_nothing(cases: Any) -> None:
+    left = cases["toggled"]["left"]
+    assert left == {"settings": False, "engine": False, "panels": [], "opted_in": [], "handlers": []}
+
+
+def test_enabling_again_works(cases: Any) -> None:
+    assert cases["toggled"]["again"]["samples"] == 64
+
+
+def test_built_in_panels_are_opted_in(cases: Any) -> None:
+    opted_in = set(cases["toggled"]["opted_in"])
+    wanted = {
+        "RENDER_PT_format",
+        "RENDER_PT_output",
+        "DATA_PT_lens",
+        "EEVEE_MATERIAL_PT_surface",
+        "WORLD_PT_context_world",
+    }
+    assert wanted <= opted_in
+    assert not {"DATA_PT_camera_dof", "RENDER_PT_freestyle", "EEVEE_WORLD_PT_volume"} & opted_in

@@ -1,0 +1,167 @@
+"""Materials reach the core as Cycles means them, and what is only approximated is said once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from blender_host import Host
+
+RED, GREEN = np.array((0.8, 0.1, 0.05)), np.array((0.1, 0.6, 0.2))
+MID_GREY = (0.5, 0.5, 0.5)
+
+
+@pytest.fixture(scope="module")
+def cases(inside: Callable[[str], Any]) -> Any:
+    return inside("material_cases")
+
+
+@pytest.fixture(scope="module")
+def materials(cases: Any) -> dict[str, Any]:
+    return cases["materials"]
+
+
+def check(material: dict[str, Any], **expected: Any) -> None:
+    """Compare every property of an exported material, those not named with black or none."""
+    black = (0, 0, 0)
+    full = {"diffuse": black, "conductor_f0": black, "conductor_f90": black, "emission": black}
+    full |= {"conductor_weight": 0, "dielectric_weight": 0}
+    for name, value in (full | expected).items():
+        np.testing.assert_allclose(material[name], value, rtol=1e-5, atol=1e-6, err_msg=name)
+
+
+def ior(f0: float) -> float:
+    """The index of refraction of a reflectance at normal incidence."""
+    return (1 + f0**0.5) / (1 - f0**0.5)
+
+
+def test_principled(host: Host, materials: dict[str, Any]) -> None:
+    new = host.version >= (4, 0)
+    f0 = 0.04  # of the node's IOR 1.5, and of Specular 0.5
+    check(materials["default"], diffuse=(0.8,) * 3, dielectric_weight=1, dielectric_ior=ior(f0), alpha=0.25)
+    assert materials["default"]["multiscatter"] is False
+
+    check(materials["plastic"], diffuse=RED, alpha=0.09, dielectric_weight=1, dielectric_ior=ior(f0 / 2))
+    assert materials["plastic"]["multiscatter"] is True
+    check(materials["metal"], alpha=0.04, conductor_f0=RED, conductor_f90=(1, 1, 1), conductor_weight=1)
+    check(
+        materials["half_metal"],
+        diffuse=RED / 2,
+        alpha=0.04,
+        conductor_f0=RED / 2,
+        conductor_f90=(0.5,) * 3,
+        conductor_weight=0.5,
+        dielectric_weight=0.5,
+    )
+    check(materials["matte"], diffuse=RED)
+    check(materials["dense"], diffuse=(0.8,) * 3, dielectric_weight=1, dielectric_ior=2 if new else 1.5)
+    luminance = RED @ (0.3, 0.6, 0.1)
+    tint = (0.5, 1, 0.25) if new else 0.5 + 0.5 * RED / luminance
+    check(materials["tinted"], diffuse=RED, dielectric_weight=1, dielectric_tint=tint)
+    check(materials["lamp"], diffuse=(0.8,) * 3, dielectric_weight=1, emission=(2, 1, 4))
+
+
+def test_edge_tint(host: Host, materials: dict[str, Any]) -> None:
+    """From Blender 4.0 metal is the F82-tint model: 7/8 of the way to grazing, Schlick's reflectance times the tint."""
+    if host.version < (4, 0):
+        assert "edged_metal" not in materials
+        return
+    names = ["edged_metal"] + (["metallic_node"] if host.version >= (4, 3) else [])
+    for name in names:
+        f0, f90 = (np.array(materials[name][part]) for part in ("conductor_f0", "conductor_f90"))
+        weight = (6 / 7) ** 5
+        np.testing.assert_allclose(f0, RED, rtol=1e-5)
+        np.testing.assert_allclose(f0 + (f90 - f0) * weight, 0.9 * (RED + (1 - RED) * weight), rtol=1e-5)
+
+
+def test_diffuse_glossy_and_emission(materials: dict[str, Any]) -> None:
+    check(materials["diffuse"], diffuse=RED)
+    check(materials["glossy"], alpha=0.16, conductor_f0=RED, conductor_f90=RED, conductor_weight=1)
+    assert materials["glossy"]["multiscatter"] is False
+    assert materials["glossy_multi"]["multiscatter"] is True
+    check(materials["emission"], emission=(6, 3, 1.5))
+
+
+def test_mix_and_add(materials: dict[str, Any]) -> None:
+    check(
+        materials["mixed"],
+        diffuse=0.75 * RED,
+        conductor_f0=0.25 * GREEN,
+        conductor_f90=0.25 * GREEN,
+        conductor_weight=0.25,
+        emission=(2, 2, 2),
+    )
+
+
+def test_links_are_followed(materials: dict[str, Any]) -> None:
+    check(materials["routed"], alpha=0.25, conductor_f0=GREEN, conductor_f90=GREEN, conductor_weight=1)
+    check(materials["grouped"], diffuse=GREEN)
+    check(materials["outputs"], diffuse=GREEN)
+
+
+def test_nearest_meanings(host: Host, materials: dict[str, Any]) -> None:
+    check(materials["image"], diffuse=(0.5, 0, 0))
+    check(materials["no_image"], diffuse=MID_GREY)
+    check(materials["noise"], diffuse=MID_GREY)
+    check(materials["checker"], diffuse=(0.5, 0.5, 0))
+    check(materials["ramp"], diffuse=(0.5, 0, 0.25))
+    assert materials["rough_noise"]["alpha"] == pytest.approx(0.09)
+    check(materials["bump"], diffuse=RED)
+    check(materials["glass"], diffuse=GREEN, dielectric_weight=1, dielectric_ior=1.5, alpha=0.25)
+    check(materials["translucent"], diffuse=GREEN)
+    check(materials["see_through"], diffuse=(0.8,) * 3)
+    check(materials["oren_nayar"], diffuse=RED)
+    check(materials["beckmann"], conductor_f0=RED, conductor_f90=RED, conductor_weight=1, alpha=0.25)
+    check(materials["coated"], diffuse=RED, dielectric_weight=1)
+    check(materials["fog"], diffuse=MID_GREY)
+    check(materials["smoke"], diffuse=RED)
+    check(materials["leaf"], diffuse=GREEN)
+    check(materials["unknown_factor"], diffuse=RED / 2)
+    check(materials["lacquer"], conductor_f0=(0.75,) * 3, conductor_f90=(0.75,) * 3, conductor_weight=1, alpha=0.25)
+    check(materials["no_surface"], diffuse=(0.8,) * 3)
+    check(materials["none"], diffuse=(0.8,) * 3)
+    if host.version < (5, 0):
+        check(materials["plain"], diffuse=RED)
+
+
+def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any) -> None:
+    said: dict[str, list[str]] = {}
+    for report in cases["reports"]:
+        found = re.fullmatch(r"Pivot: object '(.+) quad', material '(.+?)'(?:, node '(.+?)')?: .+", report)
+        assert found, report
+        assert found[1] == found[2]
+        said.setdefault(found[2], []).append(found[3])
+    expected: dict[str, list[str | None]] = {
+        "image": ["Image Texture"],
+        "no_image": ["Image Texture"],
+        "noise": ["Noise Texture"],
+        "checker": ["Checker Texture"],
+        "ramp": ["Ramp"],
+        "rough_noise": ["Noise Texture"],
+        "bump": ["Diffuse BSDF"],
+        "glass": ["Glass BSDF"],
+        "translucent": ["Translucent BSDF"],
+        "see_through": ["Transparent BSDF", None],
+        "oren_nayar": ["Diffuse BSDF"],
+        "beckmann": ["Glossy BSDF"],
+        "coated": ["Principled BSDF"] * 3,
+        "fog": ["Principled Volume", "Noise Texture"],
+        "smoke": ["Material Output"] * 2,
+        "leaf": ["Transparent BSDF"],
+        "unknown_factor": ["Noise Texture"],
+        "lacquer": ["Mix Shader"],
+        "no_surface": [None],
+    }
+    if host.version >= (4, 0):
+        expected["loop"] = [None]  # before, Blender itself cuts a loop open
+        expected["edged_metal"] = ["Principled BSDF"]
+    if host.version >= (4, 3):
+        expected["metallic_node"] = ["Metallic BSDF"]
+    assert said == expected
+
+
+def test_view_layer_override(cases: Any) -> None:
+    assert cases["override"] == [["clay"], ["clay"]]
