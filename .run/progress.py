@@ -1,0 +1,79 @@
+"""Read a build's or a render's output from stdin, write all of it to a log, and show the person a bar and what matters.
+
+    COMMAND 2>&1 | progress.py TITLE LOG
+
+On a terminal the bar is redrawn in place; elsewhere it is a line at each tenth.
+"""
+
+import re
+import signal
+import sys
+import time
+from pathlib import Path
+
+# Steps done and in all: ninja's "[3/40]", Cycles' "Sample 3/64", Pivot's "42 %".
+STEP = re.compile(r"\[(\d+)/(\d+)\]|Fra:(?P<frame>-?\d+) .*?\| (?:Sample (\d+)/(\d+)|Sample \d+ \| (\d+) %)")
+NOISE = re.compile(r"$|Fra:|Blender |Read blend:|Saved: | *Time: |ninja: (no work|Entering|build stopped)|\[|-- ")
+BAR_WIDTH = 30
+
+
+def steps(found: re.Match[str]) -> tuple[int, int]:
+    edge, edges, _, sample, samples, percent = found.groups()
+    return (int(percent), 100) if percent else (int(edge or sample), int(edges or samples))
+
+
+def duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+
+
+class Bar:
+    """One bar; the time left follows the pace since its first step."""
+
+    def __init__(self, title: str, first_step: int) -> None:
+        self.title, self.first_step, self.started_s = title, first_step, time.monotonic()
+        self.tenths_shown, self.drawn = -1, False
+
+    def show(self, step: int, total: int) -> None:
+        share = step / total
+        text = f"{share:4.0%}"
+        if step > self.first_step:
+            pace_s = (time.monotonic() - self.started_s) / (step - self.first_step)
+            text += f"  {duration(pace_s * (total - step))} left"
+        if sys.stderr.isatty():
+            filled = round(share * BAR_WIDTH)
+            text = f"\r\x1b[K{self.title} [{'#' * filled}{'.' * (BAR_WIDTH - filled)}] {text}"
+            print(text, end="", file=sys.stderr, flush=True)
+        elif int(share * 10) > self.tenths_shown:
+            print(self.title, text, file=sys.stderr, flush=True)
+        self.tenths_shown, self.drawn = int(share * 10), True
+
+    def clear(self) -> None:
+        if self.drawn and sys.stderr.isatty():
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def main(title: str, log_path: str) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the command; this ends with its output
+    bar, frame, errors = Bar(title, 0), None, set()
+    with Path(log_path).open("w") as log:
+        for line in sys.stdin:
+            print(line, end="", file=log, flush=True)
+            found = STEP.match(line)
+            step, total = steps(found) if found else (0, 0)
+            if found and step:
+                if found["frame"] != frame:
+                    frame = found["frame"]
+                    bar = Bar(f"{title} frame {frame}", step)
+                bar.show(step, total)
+            elif not NOISE.match(line) and line not in errors:
+                bar.clear()
+                print(line, end="", file=sys.stdout if line.startswith("Wrote ") else sys.stderr, flush=True)
+                if line.startswith("Error"):  # Blender prints an operator's error, the script that called it once more
+                    errors.add(line)
+    bar.clear()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

@@ -1,0 +1,45 @@
+"""The default scene's .blend is what its script makes of the meshes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SCENE = ROOT / "tests/scenes/default"
+
+DESCRIBE = """
+import sys, bpy
+bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+for thing in sorted(bpy.context.scene.objects, key=lambda o: o.name):
+    mesh = thing.type == "MESH" and (len(thing.data.vertices), len(thing.data.polygons), len(thing.data.materials))
+    light = thing.type == "LIGHT" and (thing.data.energy, tuple(thing.data.color))
+    print(thing.name, thing.type, [round(x, 5) for row in thing.matrix_world for x in row], mesh, light)
+for material in bpy.data.materials:
+    for node in material.node_tree.nodes:
+        print(material.name, node.type, [socket.name for socket in node.inputs if socket.is_linked],
+              [str(getattr(socket, "default_value", "")) and socket.name for socket in node.inputs])
+"""
+
+
+def describe(path: Path) -> list[str]:
+    ran = subprocess.run([sys.executable, "-c", DESCRIBE, path], capture_output=True, text=True, check=True)
+    return [line for line in ran.stdout.splitlines() if not line.startswith("Read blend")]
+
+
+def test_the_script_rebuilds_the_scene(tmp_path: Path) -> None:
+    script = SCENE / "build_default.py"
+    command = [
+        ROOT / "run",
+        "blender",
+        "-b",
+        "--python-exit-code",
+        "1",
+        "--python",
+        script,
+        "--",
+        tmp_path / "new.blend",
+    ]
+    subprocess.run(command, check=True, capture_output=True)
+    built = describe(tmp_path / "new.blend")
+    assert len(built) > 20
+    assert built == describe(SCENE / "default.blend")

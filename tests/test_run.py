@@ -1,0 +1,186 @@
+"""./run as a person uses it: from any folder, with any file name, and with an error that names its fix."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import OpenEXR
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+RUN = ROOT / "run"
+SCENE = ROOT / "tests/scenes/default/default.blend"
+QUICK = (
+    "import bpy; s = bpy.context.scene; s.render.resolution_percentage = 10; s.pivot.samples = 1;"
+    "s.frame_start, s.frame_end = 7, 8"
+)
+
+
+def run(
+    *arguments: str | Path, cwd: Path = ROOT, command: Path = RUN, **variables: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [command, *arguments],
+        cwd=cwd,
+        env={**os.environ, **variables},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """The default scene under a name with spaces and dots, in a folder with spaces."""
+    folder = tmp_path / "my scenes"
+    folder.mkdir()
+    return Path(shutil.copy(SCENE, folder / "still life 1.2.blend"))
+
+
+def png_size(path: Path) -> tuple[int, int]:
+    header = path.read_bytes()[:24]
+    assert header.startswith(b"\x89PNG\r\n\x1a\n")
+    return int.from_bytes(header[16:20], "big"), int.from_bytes(header[20:24], "big")
+
+
+def test_bare_prints_help() -> None:
+    ran = run()
+    assert ran.returncode == 0
+    for command in ("render", "test", "blender", "python"):
+        assert f"./run {command} " in ran.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        (("rendre",), "no such command: rendre"),
+        (("render", "nowhere.blend"), "no such file: nowhere.blend"),
+        (("render", "run", "-f", "1"), "options come after --"),
+        (("render", "--", "-f"), "-f needs a frame"),
+    ],
+)
+def test_a_mistake_gets_one_line(arguments: tuple[str, ...], error: str) -> None:
+    ran = run(*arguments)
+    assert ran.returncode != 0
+    assert error in ran.stderr.splitlines()[-1]
+
+
+def test_render_from_another_folder_through_a_symlink(tmp_path: Path, scene: Path) -> None:
+    (tmp_path / "work").mkdir()
+    (tmp_path / "home").mkdir()
+    (tmp_path / "pivot").symlink_to(RUN)
+    before = scene.read_bytes()
+    ran = run(
+        "render", "../my scenes/still life 1.2.blend", "--", "--python-expr", QUICK,
+        cwd=tmp_path / "work", command=tmp_path / "pivot", HOME=str(tmp_path / "home"),
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert names(tmp_path / "work") == ["still life 1.2.exr", "still life 1.2.png"]
+    assert f"Wrote {tmp_path / 'work' / 'still life 1.2.png'}" in ran.stdout
+    assert names(tmp_path / "home") == []
+    assert scene.read_bytes() == before
+    assert png_size(tmp_path / "work/still life 1.2.png") == (96, 54)
+    channels = " ".join(OpenEXR.File(str(tmp_path / "work/still life 1.2.exr"), separate_channels=True).channels())
+    for name in ("Combined.R", "Depth.Z", "Normal.X", "Position.X", "DiffCol.R", "Emit.R"):
+        assert name in channels
+
+
+def test_frames_are_numbered(tmp_path: Path, scene: Path) -> None:
+    ran = run("render", scene, "--", "--python-expr", QUICK, "-a", cwd=tmp_path)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    made = [f"still life 1.2{frame:04}{suffix}" for frame in (7, 8) for suffix in (".exr", ".png")]
+    assert names(tmp_path) == ["my scenes", *made]
+    assert "frame 7" in ran.stderr
+    assert "frame 8 100%" in ran.stderr
+
+
+def test_a_failed_render_says_why_and_writes_nothing(tmp_path: Path, scene: Path) -> None:
+    ran = run("render", scene, "--", "--python-expr", "import bpy; bpy.context.scene.camera = None", cwd=tmp_path)
+    assert ran.returncode != 0
+    assert "camera" in ran.stderr
+    assert ran.stderr.splitlines()[-1].startswith("run: rendering failed")
+    assert names(tmp_path) == ["my scenes"]
+
+
+def test_blender_renders_with_pivot(tmp_path: Path, scene: Path) -> None:
+    expr = ("--python-expr", QUICK)
+    ran = run("blender", "-b", scene, *expr, "-E", "PIVOT", "-o", tmp_path / "out_#", "-f", "1")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert png_size(tmp_path / "out_1.png") == (96, 54)
+    assert "Sample " in ran.stdout  # Cycles says "Sample n/m" of a scene, Pivot does not
+    assert "ViewLayer" not in ran.stdout
+
+
+def test_python_imports_core_addon_and_blender() -> None:
+    code = "import sys, bpy, addon_utils, pivot_core; addon_utils.enable('pivot'); print(sys.modules['pivot'].__file__)"
+    ran = run("python", "-c", code)
+    assert ran.returncode == 0, ran.stderr
+    assert Path(ran.stdout.strip()).resolve() == ROOT / "addon/__init__.py"
+
+
+def stub(folder: Path, name: str, script: str) -> None:
+    path = folder / name
+    path.write_text(f"#!/bin/bash\n{script}\n")
+    path.chmod(0o755)
+
+
+def test_missing_packages_are_installed_with_fresh_lists(tmp_path: Path) -> None:
+    """A first install without package lists fails; it is tried again after an update."""
+    calls = tmp_path / "calls"
+    stub(tmp_path, "dpkg-query", "echo 'installed cmake'")
+    stub(tmp_path, "apt-get", f'echo "$@" >> {calls}; [[ $* == *update* ]] || [[ $(wc -l < {calls}) -gt 1 ]]')
+    stub(tmp_path, "sudo", '"$@"')
+    ran = run("blender", "--version", PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert ran.returncode == 0, ran.stderr
+    installs = [line.split() for line in calls.read_text().splitlines()]
+    assert ["install" in installs[0], "update" in installs[1], "install" in installs[2]] == [True, True, True]
+    assert "libembree-dev" in installs[0]
+    assert "cmake" not in installs[0]
+
+
+def test_a_failed_install_names_the_fix(tmp_path: Path) -> None:
+    stub(tmp_path, "dpkg-query", "true")
+    stub(tmp_path, "apt-get", "echo 'E: Unable to locate package'; exit 100")
+    stub(tmp_path, "sudo", '"$@"')
+    ran = run("blender", "--version", PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert ran.returncode != 0
+    assert "E: Unable to locate package" in ran.stderr
+    assert "apt-get install cmake" in ran.stderr.splitlines()[-1]
+
+
+def progress(tmp_path: Path, lines: list[str]) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, ROOT / ".run/progress.py", "Working", tmp_path / "log"]
+    return subprocess.run(
+        command, input="".join(f"{line}\n" for line in lines), capture_output=True, text=True, check=True
+    )
+
+
+def test_progress_reads_ninja_pivot_and_cycles(tmp_path: Path) -> None:
+    lines = [
+        "[0/2] Re-checking globbed directories...",
+        "[3/4] Building CXX object",
+        "Fra:5 Mem:1.00M (Peak 2.00M) | Time:00:01.00 | Exporting the scene",
+        "Fra:5 Mem:1.00M (Peak 2.00M) | Time:00:01.00 | Sample 12 | 20 % | 00:09 left",
+        "Fra:6 Mem:1.00M (Peak 2.00M) | Time:00:01.00 | Mem:1.00M, Peak:2.00M | Scene, ViewLayer | Sample 8/16",
+        "Warning: material 'wood': texture node",
+        "Error: no light",
+        "Error: no light",
+    ]
+    ran = progress(tmp_path, [*lines, "Wrote x.png"])
+    shown = ["Working  75%  0:00 left", "Working frame 5  20%", "Working frame 6  50%", lines[-3], lines[-1]]
+    assert ran.stderr.splitlines() == shown
+    assert ran.stdout == "Wrote x.png\n"
+    assert (tmp_path / "log").read_text().splitlines() == [*lines, "Wrote x.png"]
+
+
+def test_progress_off_a_terminal_is_sparse(tmp_path: Path) -> None:
+    ran = progress(tmp_path, [f"[{edge}/1000] Building" for edge in range(1, 1001)])
+    shares = [line.split()[1] for line in ran.stderr.splitlines()]
+    assert shares == ["0%", *(f"{tenth}0%" for tenth in range(1, 11))]

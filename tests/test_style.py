@@ -1,0 +1,30 @@
+"""The tree's formatting and lint: ruff for Python, clang-format for C++."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCES = [
+    path for folder in ("core", "bindings") for path in (ROOT / folder).rglob("*") if path.suffix in {".h", ".cpp"}
+]
+
+
+@pytest.mark.parametrize("command", [["check"], ["format", "--diff"]], ids=" ".join)
+def test_python_is_ruff_clean(command: list[str]) -> None:
+    ran = subprocess.run([sys.executable, "-m", "ruff", *command, "."], cwd=ROOT, capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+
+
+@pytest.mark.skipif(shutil.which("clang-format") is None, reason="clang-format is not installed")
+def test_cpp_is_clang_formatted() -> None:
+    ran = subprocess.run(["clang-format", "--dry-run", "-Werror", *SOURCES], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+
+
+@pytest.mark.parametrize("script", ["run", ".ci/run"])
+def test_shell_scripts_parse(script: str) -> None:
+    assert subprocess.run(["bash", "-n", ROOT / script]).returncode == 0
