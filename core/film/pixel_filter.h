@@ -12,7 +12,7 @@ namespace pivot {
 
 class PixelFilter {
    public:
-    /// width_px: of the whole filter; Blender's default is 1.5.
+    /// width_px: of the whole window; Cycles' setting of 1.5 is half of it.
     explicit PixelFilter(float width_px) : width_px_(width_px) {
         constexpr std::size_t steps = 64;  // integration steps per table cell
         double sum = 0.0;
