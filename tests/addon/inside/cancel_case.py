@@ -16,6 +16,9 @@ from fault_cases import render, scene
 
 def main(folder: Path) -> Any:
     """How long the render went on, and whether it left a picture."""
+    # A shell's background job starts with the signal ignored, and Python then leaves it so; a terminal's does not.
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     scene()
     parts.size(512, 512)
     bpy.context.scene.pivot.samples = 100_000
