@@ -92,7 +92,9 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
             layout.prop(pivot, "max_bounces")
             layout.prop(pivot, "seed")
         else:
+            layout.prop(pivot, "analytic_method")
             layout.prop(pivot, "error_budget")
+            layout.prop(pivot, "occlusion")
         layout.prop(pivot, "time_limit")
 
 
@@ -126,7 +128,19 @@ class PIVOT_VIEWLAYER_PT_passes(_PivotPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Include")
         for entry in PASSES:
-            column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
+            if not entry.is_own:
+                column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
+
+
+class PIVOT_VIEWLAYER_PT_own_passes(_PivotPanel, bpy.types.Panel):
+    bl_label = "Pivot"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = _columns(self).column(heading="Analytic")
+        for entry in PASSES:
+            if entry.is_own:
+                column.prop(context.view_layer.pivot, entry.switch)
 
 
 class PIVOT_OBJECT_PT_ray_visibility(_PivotPanel, bpy.types.Panel):
@@ -182,6 +196,7 @@ _CLASSES = (
     PIVOT_RENDER_PT_film,
     PIVOT_RENDER_PT_performance,
     PIVOT_VIEWLAYER_PT_passes,
+    PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
     PIVOT_LIGHT_PT_light,
 )

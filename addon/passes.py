@@ -18,10 +18,14 @@ class Pass:
     name_5_0: str
     channels: str
     kind: str  # of RenderEngine.register_pass
-    switch: str  # of bpy.types.ViewLayer
+    switch: str  # of bpy.types.ViewLayer, or of its `pivot` where the pass is Pivot's own
+    is_own: bool = False
 
     def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
         return self.name_5_0 if version >= (5, 0) else self.name
+
+    def is_on(self, view_layer: bpy.types.ViewLayer) -> bool:
+        return getattr(view_layer.pivot if self.is_own else view_layer, self.switch)
 
 
 PASSES = (
@@ -31,13 +35,15 @@ PASSES = (
     Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
     Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color"),
     Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
+    Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", is_own=True),
+    Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", is_own=True),
 )
 
 
 def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
     """Tell Blender which passes this view layer will get."""
     for entry in PASSES:
-        if getattr(view_layer, entry.switch):
+        if entry.is_on(view_layer):
             engine.register_pass(
                 scene, view_layer, entry.blender_name(), len(entry.channels), entry.channels, entry.kind
             )

@@ -1,9 +1,9 @@
-"""scene.pivot: the settings an artist sets, saved with the .blend."""
+"""scene.pivot and view_layer.pivot: the settings an artist sets, saved with the .blend."""
 
 from __future__ import annotations
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 INTEGRATORS = (
     ("MONTE_CARLO", "Monte Carlo", "Unbiased path tracing: for final pictures and ground truth"),
@@ -16,6 +16,19 @@ LIGHT_SAMPLING = (
     ("MIS", "MIS", "Light and material samples, combined by multiple importance sampling"),
     ("LIGHT", "Light", "Samples the light's cone only"),
     ("BSDF", "BSDF", "Samples the material only"),
+)
+
+ANALYTIC_METHODS = (
+    ("AUTO", "Automatic", "The cheapest method whose predicted error meets the error budget"),
+    ("EXACT", "Exact", "The closed form of GGX under lights of finite size"),
+    ("SPTD", "SPTD", "One spherical pivot transformed distribution per lobe, from a table"),
+    ("LTC", "LTC", "One linearly transformed cosine per lobe, from a table"),
+)
+
+OCCLUSIONS = (
+    ("RAY_TRACED", "Ray Traced", "Rays to a fixed set of points on each light"),
+    ("BENT_CONE", "Bent Cones", "The cone of what each vertex sees; soft and fast, but coarse"),
+    ("NONE", "None", "Lights cast no shadows"),
 )
 
 
@@ -42,6 +55,18 @@ class PivotSettings(bpy.types.PropertyGroup):
         max=100.0,
         subtype="PERCENTAGE",
     )
+    analytic_method: EnumProperty(
+        name="Method",
+        description="How glossy materials are integrated over lights",
+        items=ANALYTIC_METHODS,
+        default="AUTO",
+    )
+    occlusion: EnumProperty(
+        name="Occlusion",
+        description="How shadows are found",
+        items=OCCLUSIONS,
+        default="RAY_TRACED",
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description="Seconds after which a frame stops with the samples it has; 0 is no limit",
@@ -52,11 +77,34 @@ class PivotSettings(bpy.types.PropertyGroup):
     )
 
 
+def _passes_changed(_: PivotPasses, context: bpy.types.Context) -> None:
+    context.view_layer.update_render_passes()
+
+
+class PivotPasses(bpy.types.PropertyGroup):
+    """Switches of the passes that Blender has none for."""
+
+    use_pass_method: BoolProperty(
+        name="Method",
+        description="The analytic integrator's methods, by colour, as each pixel took them",
+        update=_passes_changed,
+    )
+    use_pass_error: BoolProperty(
+        name="Error",
+        description="The relative error that the analytic integrator predicts of each pixel",
+        update=_passes_changed,
+    )
+
+
 def register() -> None:
     bpy.utils.register_class(PivotSettings)
+    bpy.utils.register_class(PivotPasses)
     bpy.types.Scene.pivot = PointerProperty(type=PivotSettings)
+    bpy.types.ViewLayer.pivot = PointerProperty(type=PivotPasses)
 
 
 def unregister() -> None:
+    del bpy.types.ViewLayer.pivot
     del bpy.types.Scene.pivot
+    bpy.utils.unregister_class(PivotPasses)
     bpy.utils.unregister_class(PivotSettings)

@@ -25,6 +25,8 @@ def render_settings(native: Any, scene: bpy.types.Scene, samples: int, max_bounc
             max_bounces=max_bounces,
             light_sampling=pivot.light_sampling,
             error_budget_percent=pivot.error_budget,
+            analytic_method=pivot.analytic_method,
+            occlusion=pivot.occlusion,
             time_limit_s=pivot.time_limit,
             threads=scene.render.threads,
             filter_width_px=2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it

@@ -30,8 +30,9 @@ void require(bool ok, const char* message) {
 }
 
 RenderSettings make_settings(const string& integrator, int samples, std::uint32_t seed, int max_bounces,
-                             const string& light_sampling, float error_budget_percent, float time_limit_s, int threads,
-                             float filter_width_px, bool transparent_film) {
+                             const string& light_sampling, float error_budget_percent, const string& analytic_method,
+                             const string& occlusion, float time_limit_s, int threads, float filter_width_px,
+                             bool transparent_film) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
@@ -51,6 +52,14 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .seed = seed,
         .max_bounces = static_cast<std::uint32_t>(max_bounces),
         .error_budget_percent = error_budget_percent,
+        .analytic_method = from_name<AnalyticMethod>("analytic_method", analytic_method,
+                                                     {{"AUTO", AnalyticMethod::automatic},
+                                                      {"EXACT", AnalyticMethod::exact},
+                                                      {"SPTD", AnalyticMethod::sptd},
+                                                      {"LTC", AnalyticMethod::ltc}}),
+        .occlusion = from_name<Occlusion>(
+            "occlusion", occlusion,
+            {{"RAY_TRACED", Occlusion::ray_traced}, {"BENT_CONE", Occlusion::bent_cone}, {"NONE", Occlusion::none}}),
         .time_limit_s = time_limit_s,
         .threads = threads,
         .filter_width_px = filter_width_px,
@@ -69,7 +78,8 @@ void register_render(py::module_& module) {
     py::class_<RenderSettings>(module, "RenderSettings", "What the artist sets; see the README's table.")
         .def(py::init(&make_settings), py::kw_only(), py::arg("integrator") = "MONTE_CARLO", py::arg("samples") = 64,
              py::arg("seed") = 0, py::arg("max_bounces") = 4, py::arg("light_sampling") = "JOINT",
-             py::arg("error_budget_percent") = 2.0f, py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
+             py::arg("error_budget_percent") = 2.0f, py::arg("analytic_method") = "AUTO",
+             py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
              py::arg("filter_width_px") = 1.5f, py::arg("transparent_film") = false);
     py::class_<Session>(module, "Session",
                         "A render by native threads. The scene must not be edited until the session has ended.")
@@ -86,8 +96,9 @@ void register_render(py::module_& module) {
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def("read", &read, py::arg("pass_name"),
              "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
-             "the "
-             "camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit.");
+             "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit. Of the analytic "
+             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
+             "predicted.");
 }
 
 }  // namespace pivot::bindings

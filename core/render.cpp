@@ -28,8 +28,8 @@ std::vector<Tile> make_tiles(int width, int height) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission;
-    return std::isfinite(sum.x + sum.y + sum.z + s.alpha);
+    const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method;
+    return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.predicted_error);
 }
 
 }  // namespace
@@ -146,6 +146,8 @@ void Session::add_sample(Pixel& pixel, int x, int y, std::uint32_t index) {
     pixel.sum.normal += sample.normal;
     pixel.sum.albedo += sample.albedo;
     pixel.sum.emission += sample.emission;
+    pixel.sum.method += sample.method;
+    pixel.sum.predicted_error += sample.predicted_error;
 }
 
 void Session::see_center(Pixel& pixel, int x, int y) const {

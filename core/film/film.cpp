@@ -19,8 +19,12 @@ void write(const Pixel& pixel, std::string_view pass, float* out) {
         put(pixel.center.position);
     } else if (pass == "DiffCol") {
         put(pixel.sum.albedo * scale);
-    } else {
+    } else if (pass == "Emit") {
         put(pixel.sum.emission * scale);
+    } else if (pass == "Method") {
+        put(pixel.sum.method * scale);
+    } else {
+        out[0] = pixel.sum.predicted_error * scale;
     }
 }
 

@@ -17,9 +17,11 @@ namespace pivot {
 struct Sample {
     Rgb radiance{0.0f};
     float alpha = 1.0f;
-    Vec3f normal{0.0f};  ///< world space, at the first hit
-    Rgb albedo{0.0f};    ///< of the diffuse lobe at the first hit
-    Rgb emission{0.0f};  ///< of the first hit itself
+    Vec3f normal{0.0f};            ///< world space, at the first hit
+    Rgb albedo{0.0f};              ///< of the diffuse lobe at the first hit
+    Rgb emission{0.0f};            ///< of the first hit itself
+    Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
+    float predicted_error = 0.0f;  ///< analytic: relative, of the radiance
 };
 
 /// What the ray through the pixel's centre meets; never averaged.
@@ -44,8 +46,8 @@ struct PassInfo {
     int channels;
 };
 
-inline constexpr PassInfo passes[] = {{"Combined", 4}, {"Depth", 1},   {"Normal", 3},
-                                      {"Position", 3}, {"DiffCol", 3}, {"Emit", 3}};
+inline constexpr PassInfo passes[] = {{"Combined", 4}, {"Depth", 1}, {"Normal", 3}, {"Position", 3},
+                                      {"DiffCol", 3},  {"Emit", 3},  {"Method", 3}, {"Error", 1}};
 
 class Film {
    public:

@@ -11,6 +11,13 @@ enum class Integrator { monte_carlo, analytic };
 /// and BSDF samples, together or alone.
 enum class LightSampling { joint, sptd, mis, light, bsdf };
 
+/// How the analytic integrator integrates a GGX lobe over a light: the cheapest that meets the error budget, the exact
+/// core, one SPTD lobe, or one linearly transformed cosine.
+enum class AnalyticMethod { automatic, exact, sptd, ltc };
+
+/// What the analytic integrator takes for visibility: rays to the lights, the bent cones of the vertices, or nothing.
+enum class Occlusion { ray_traced, bent_cone, none };
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -18,8 +25,10 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;      ///< 0: direct light only
     float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show
-    float time_limit_s = 0.0f;          ///< 0: none
-    int threads = 0;                    ///< 0: all cores
+    AnalyticMethod analytic_method = AnalyticMethod::automatic;
+    Occlusion occlusion = Occlusion::ray_traced;
+    float time_limit_s = 0.0f;  ///< 0: none
+    int threads = 0;            ///< 0: all cores
     float filter_width_px = 1.5f;
     bool transparent_film = false;
 };

@@ -21,6 +21,8 @@ def test_defaults(cases: Any) -> None:
         "max_bounces": 4,
         "light_sampling": "JOINT",
         "error_budget_percent": 2.0,
+        "analytic_method": "AUTO",
+        "occlusion": "RAY_TRACED",
         "time_limit_s": 0.0,
         "threads": 0,
         "filter_width_px": 3.0,
@@ -37,6 +39,8 @@ def test_settings(cases: Any) -> None:
         "max_bounces": 0,
         "light_sampling": "SPTD",
         "error_budget_percent": 0.5,
+        "analytic_method": "LTC",
+        "occlusion": "BENT_CONE",
         "time_limit_s": 12.0,
         "threads": 3,
         "filter_width_px": 4.0,
@@ -50,7 +54,14 @@ def test_a_view_layer_may_have_its_own_samples(cases: Any) -> None:
 
 def test_disabling_leaves_nothing(cases: Any) -> None:
     left = cases["toggled"]["left"]
-    assert left == {"settings": False, "engine": False, "panels": [], "opted_in": [], "handlers": []}
+    assert left == {
+        "settings": False,
+        "pass_switches": False,
+        "engine": False,
+        "panels": [],
+        "opted_in": [],
+        "handlers": [],
+    }
 
 
 def test_enabling_again_works(cases: Any) -> None:

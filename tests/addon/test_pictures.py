@@ -53,7 +53,7 @@ def first(folder: Path) -> dict[str, np.ndarray]:
 
 
 def test_passes_are_those_that_are_switched_on(first: dict[str, np.ndarray], names: dict[str, str]) -> None:
-    everything = {"Combined", "Depth", "Normal", "Position", names["albedo"], names["emission"]}
+    everything = {"Combined", "Depth", "Normal", "Position", names["albedo"], names["emission"], "Method", "Error"}
     assert set(first) == {f"first.{name}" for name in everything} | {"clay.Combined", f"clay.{names['albedo']}"}
 
 
@@ -74,6 +74,8 @@ def test_passes_hold_what_the_pixel_sees(first: dict[str, np.ndarray], names: di
     np.testing.assert_allclose(emission[LAMP], EMISSION, rtol=1e-5)
     np.testing.assert_allclose(combined[LAMP], (*EMISSION, 1), rtol=1e-5)
     np.testing.assert_allclose(combined[OUTSIDE], 0)  # transparent film
+    assert first["first.Method"].shape == (SIZE, SIZE, 3)
+    assert first["first.Error"].shape == (SIZE, SIZE, 1)
 
 
 def test_rows_are_not_mirrored(first: dict[str, np.ndarray]) -> None:

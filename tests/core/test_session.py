@@ -49,6 +49,8 @@ def test_passes_hold_what_their_names_say() -> None:
     np.testing.assert_allclose(np.linalg.norm(session.read("Normal")[inside], axis=-1), 1.0, atol=0.1)
     np.testing.assert_allclose(session.read("DiffCol")[inside], np.tile([0.8, 0.4, 0.2], (inside.sum(), 1)), rtol=1e-5)
     np.testing.assert_allclose(session.read("Emit")[inside], np.tile([0.25, 0, 0], (inside.sum(), 1)), rtol=1e-5)
+    for name, channels in (("Method", 3), ("Error", 1)):  # of the analytic integrator
+        np.testing.assert_array_equal(session.read(name), np.zeros((24, 32, channels)))
     with pytest.raises(ValueError, match=r"no pass 'Beauty'.*Combined"):
         session.read("Beauty")
 
@@ -181,6 +183,10 @@ def test_bad_objects_lights_and_settings_are_named() -> None:
         pivot_core.AreaLight((0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 1, 1))
     with pytest.raises(ValueError, match="light_sampling must be one of JOINT, SPTD"):
         pivot_core.RenderSettings(light_sampling="MAGIC")
+    with pytest.raises(ValueError, match="analytic_method must be one of AUTO, EXACT, SPTD, LTC, not 'MAGIC'"):
+        pivot_core.RenderSettings(analytic_method="MAGIC")
+    with pytest.raises(ValueError, match="occlusion must be one of RAY_TRACED, BENT_CONE, NONE, not 'MAGIC'"):
+        pivot_core.RenderSettings(occlusion="MAGIC")
     with pytest.raises(ValueError, match="samples must be at least 1"):
         pivot_core.RenderSettings(samples=0)
     with pytest.raises(ValueError, match="no camera"):

@@ -30,6 +30,7 @@ def _settings() -> Any:
     pivot.integrator, pivot.light_sampling = "ANALYTIC", "SPTD"
     pivot.samples, pivot.seed, pivot.max_bounces = 7, 3, 0
     pivot.error_budget, pivot.time_limit = 0.5, 12
+    pivot.analytic_method, pivot.occlusion = "LTC", "BENT_CONE"
     render.threads_mode, render.threads = "FIXED", 3
     render.filter_size, render.film_transparent = 2.0, True
     return asdict(record().settings)
@@ -48,6 +49,7 @@ def _toggled() -> Any:
     addon_utils.disable("pivot")
     left = {
         "settings": hasattr(bpy.types.Scene, "pivot"),
+        "pass_switches": hasattr(bpy.types.ViewLayer, "pivot"),
         "engine": hasattr(bpy.types, "PivotRenderEngine"),
         "panels": [p.__name__ for p in _panels() if p.__name__.startswith("PIVOT_")],
         "opted_in": [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())],

@@ -72,6 +72,8 @@ class RenderSettings:
     max_bounces: int
     light_sampling: str
     error_budget_percent: float
+    analytic_method: str
+    occlusion: str
     time_limit_s: float
     threads: int
     filter_width_px: float

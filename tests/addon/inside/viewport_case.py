@@ -86,6 +86,8 @@ def steps() -> Iterator[int]:
     space.region_3d.view_perspective = "ORTHO"
     red.location.x = 0
     yield 0
+    window.scene.pivot.integrator = "ANALYTIC"
+    yield 0
     # Every panel is drawn once; one that fails prints a traceback.
     data = bpy.data.lights.new("light", "POINT")
     light = bpy.data.objects.new("light", data)
