@@ -40,5 +40,6 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_tables(tables);
 
     register_scene(module);
+    register_rays(module);
     register_render(module);
 }

@@ -16,6 +16,7 @@ void register_bsdf(pybind11::module_& bsdf);
 void register_tables(pybind11::module_& tables);
 
 void register_scene(pybind11::module_& module);
+void register_rays(pybind11::module_& module);
 void register_render(pybind11::module_& module);
 
 }  // namespace pivot::bindings

@@ -24,23 +24,15 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-void intersect1(RTCScene scene, RTCRayHit& ray_hit) {
+/// Calls one of Embree's rtcIntersect* and rtcOccluded*; version 3 wants a context before the rays.
+template <class Call, class Rays, class... Valid>
+void trace(Call call, RTCScene scene, Rays& rays, Valid... valid) {
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene, &ray_hit);
+    call(valid..., scene, &rays, nullptr);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &ray_hit);
-#endif
-}
-
-void occluded1(RTCScene scene, RTCRay& ray) {
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded1(scene, &ray);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &ray);
+    call(valid..., scene, &context, &rays);
 #endif
 }
 
@@ -52,6 +44,61 @@ RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     r.tfar = ray.far_m;
     r.mask = mask;
     return r;
+}
+
+/// How many rays an Embree packet holds, by the type of one of its fields.
+template <class Packet>
+constexpr std::size_t width_of = std::extent_v<decltype(Packet::tfar)>;
+
+/// Fills a packet with the first rays there are; `valid` is -1 for those and 0 for lanes left over.
+template <class Packet>
+void fill_packet(Packet& packet, int* valid, std::span<const Ray> rays, std::uint32_t mask) {
+    for (std::size_t i = 0; i < width_of<Packet>; ++i) {
+        valid[i] = i < rays.size() ? -1 : 0;
+        const Ray& ray = rays[std::min(i, rays.size() - 1)];
+        packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
+        packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
+        packet.tnear[i] = ray.near_m;
+        packet.tfar[i] = ray.far_m;
+        packet.time[i] = 0.0f;
+        packet.mask[i] = mask;
+        packet.flags[i] = 0;
+    }
+}
+
+template <class Packet, class PacketHit, class Call>
+void intersect_packets(Call call, RTCScene scene, std::span<const Ray> rays, std::uint32_t mask,
+                       std::span<std::optional<RayHit>> hits) {
+    constexpr std::size_t width = width_of<Packet>;
+    for (std::size_t first = 0; first < rays.size(); first += width) {
+        alignas(64) int valid[width];
+        PacketHit r;
+        const std::size_t count = std::min(width, rays.size() - first);
+        fill_packet(r.ray, valid, rays.subspan(first, count), mask);
+        for (std::size_t i = 0; i < width; ++i) {
+            r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        trace(call, scene, r, valid);
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i].reset();
+            if (r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+            hits[first + i] = RayHit{r.ray.tfar[i], r.hit.instID[0][i], r.hit.primID[i], {r.hit.u[i], r.hit.v[i]}};
+        }
+    }
+}
+
+template <class Packet, class Call>
+void occluded_packets(Call call, RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
+    constexpr std::size_t width = width_of<Packet>;
+    for (std::size_t first = 0; first < rays.size(); first += width) {
+        alignas(64) int valid[width];
+        Packet r;
+        const std::size_t count = std::min(width, rays.size() - first);
+        fill_packet(r, valid, rays.subspan(first, count), visible_to_light);
+        trace(call, scene, r, valid);
+        for (std::size_t i = 0; i < count; ++i) occluded[first + i] = r.tfar[i] < 0.0f;
+    }
 }
 
 }  // namespace
@@ -69,6 +116,7 @@ struct RayTracer::Implementation {
     std::vector<std::uint32_t> unbuilt;          ///< mesh ids; commit() builds their BVHs: adding a mesh is quick
     std::unordered_set<std::uint32_t> attached;  ///< instance ids; asking Embree for an unused one aborts
     bool changed = true;
+    std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
 
     void check() const {
         const RTCError error = rtcGetDeviceError(device.get());
@@ -98,6 +146,12 @@ RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
     self.device.reset(rtcNewDevice(nullptr));
     if (!self.device)
         throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(self.device.get(), property); };
+    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) {
+        self.packet_width = 16;
+    } else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) {
+        self.packet_width = 8;
+    }
     self.world.reset(rtcNewScene(self.device.get()));
     // Exact at shared edges: no light leaks between triangles.
     rtcSetSceneFlags(self.world.get(), RTC_SCENE_FLAG_ROBUST);
@@ -167,15 +221,32 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
     r.ray = to_embree(ray, from);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect1(implementation_->world.get(), r);
+    trace(rtcIntersect1, implementation_->world.get(), r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return RayHit{r.ray.tfar, r.hit.instID[0], r.hit.primID, {r.hit.u, r.hit.v}};
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
     RTCRay r = to_embree(ray, visible_to_light);
-    occluded1(implementation_->world.get(), r);
+    trace(rtcOccluded1, implementation_->world.get(), r);
     return r.tfar < 0.0f;
+}
+
+void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
+    const auto& self = *implementation_;
+    if (self.packet_width == 16)
+        return intersect_packets<RTCRay16, RTCRayHit16>(rtcIntersect16, self.world.get(), rays, from, hits);
+    if (self.packet_width == 8)
+        return intersect_packets<RTCRay8, RTCRayHit8>(rtcIntersect8, self.world.get(), rays, from, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], from);
+}
+
+void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
+    const auto& self = *implementation_;
+    if (self.packet_width == 16)
+        return occluded_packets<RTCRay16>(rtcOccluded16, self.world.get(), rays, occluded_rays);
+    if (self.packet_width == 8) return occluded_packets<RTCRay8>(rtcOccluded8, self.world.get(), rays, occluded_rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) occluded_rays[i] = occluded(rays[i]);
 }
 
 }  // namespace pivot

@@ -46,6 +46,10 @@ class RayTracer {
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const;
     bool occluded(const Ray& ray) const;
 
+    /// Many at once, in SIMD packets of neighbours in the span: up to 3 times the rate. hits: one per ray.
+    void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
+
    private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;

@@ -57,6 +57,13 @@ class Scene {
 
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const { return ray_tracer_.intersect(ray, from); }
     bool occluded(const Ray& ray) const { return ray_tracer_.occluded(ray); }
+    /// Many at once, see RayTracer.
+    void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
+        ray_tracer_.intersect(rays, from, hits);
+    }
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
+        ray_tracer_.occluded(rays, occluded_rays);
+    }
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const;
 
    private:

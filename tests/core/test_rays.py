@@ -1,0 +1,56 @@
+"""Rays through pivot_core.Scene: packets against single rays."""
+
+from __future__ import annotations
+
+import numpy as np
+import pivot_core
+from scenes import Floats, add_plane, add_sphere, place, set_camera
+
+
+def balls() -> pivot_core.Scene:
+    """Spheres in rows over a plane, one instance each."""
+    scene = pivot_core.Scene()
+    material = scene.add_material("m", pivot_core.Material(diffuse=(1, 1, 1)))
+    scene.add_instances("floor", add_plane(scene, 4.0), place(), [material])
+    rows = [place(x, y, 1.0, 0.7) for x in (-2.0, 0.0, 2.0) for y in (-2.0, 0.0, 2.0)]
+    scene.add_instances("ball", add_sphere(scene, 16), np.concatenate(rows), [material])
+    set_camera(scene, (0, -9, 3))
+    return scene
+
+
+def scattered_rays(count: int) -> tuple[Floats, Floats]:
+    """From around the balls towards them and past them; count is no multiple of a packet's width."""
+    generator = np.random.default_rng(7)
+    origins = generator.uniform(-6, 6, (count, 3)).astype(np.float32)
+    directions = generator.uniform(-3, 3, (count, 3)) - origins
+    return origins, (directions / np.linalg.norm(directions, axis=1, keepdims=True)).astype(np.float32)
+
+
+def test_packets_hit_what_single_rays_hit() -> None:
+    scene = balls()
+    origins, directions = scattered_rays(5003)
+    packet, single = (scene.intersect(origins, directions, packets=packets) for packets in (True, False))
+    hit = single[1] >= 0
+    assert 0.3 < hit.mean() < 0.99
+    # An edge between two triangles may go to either, each with its own rounding.
+    same = (packet[1] == single[1]) & (packet[2] == single[2])
+    assert same.mean() > 0.999
+    np.testing.assert_allclose(packet[0], single[0], rtol=1e-4)
+    np.testing.assert_allclose(packet[3][same], single[3][same], atol=1e-4)
+
+
+def test_packets_are_occluded_where_single_rays_are() -> None:
+    scene = balls()
+    origins, directions = scattered_rays(5003)
+    far_m = np.random.default_rng(8).uniform(0, 12, len(origins)).astype(np.float32)
+    packet, single = (scene.occluded(origins, directions, far_m, packets=packets) for packets in (True, False))
+    np.testing.assert_array_equal(packet, single)
+    distance_m = scene.intersect(origins, directions)[0]
+    assert (single == (distance_m < far_m)).mean() > 0.999
+
+
+def test_packets_end_where_the_rays_end() -> None:
+    scene = balls()
+    origins, directions = scattered_rays(3)
+    assert [len(part) for part in scene.intersect(origins, directions)] == [3, 3, 3, 3]
+    assert scene.occluded(origins[:0], directions[:0], np.zeros(0, np.float32)).shape == (0,)
