@@ -1,6 +1,7 @@
 // Vectors are GLM's, over any number type.
 #pragma once
 
+#include <concepts>
 #include <glm/glm.hpp>
 
 #include "core/math/number.h"
@@ -38,9 +39,10 @@ Vec3<T> normalize(const Vec3<T>& v) {
     return v * (T(1) / sqrt(dot(v, v)));
 }
 
-template <class T>
-Vec3<T> select(bool condition, const Vec3<T>& a, const Vec3<T>& b) {
-    return condition ? a : b;
+/// Lane by lane; select(bool, ...) chooses a whole vector.
+template <class T, class M>
+requires(!std::same_as<M, bool>) Vec3<T> select(const M& condition, const Vec3<T>& a, const Vec3<T>& b) {
+    return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
 inline float max_component(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
