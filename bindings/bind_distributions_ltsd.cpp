@@ -1,6 +1,6 @@
 #include "bindings/register.h"
 #include "bindings/vectorize.h"
-#include "core/distributions/ltsd.h"
+#include "core/distributions/ltc.h"
 
 namespace pivot::bindings {
 
@@ -27,6 +27,11 @@ void define_with_base(py::module_& module, const char* name, const char* doc, Fn
 }
 
 constexpr Matrix m_spec{.name = "m"};
+
+template <class T>
+Ltsd<T> ltc(const Mat3<T>& m) {
+    return make_ltsd(BaseDistribution::clamped_cosine, m);
+}
 
 }  // namespace
 
@@ -80,6 +85,29 @@ void register_ltsd(py::module_& distributions) {
         "ltsd_mean_direction(base, m): the mean direction E[omega] (..., 3), of length <= 1.\n\n"
         "m (..., 3, 3). Exact to rounding. [Heitz16, supplement 2.4]",
         []<class T>(BaseDistribution base, const Mat3<T>& m) { return mean_direction(make_ltsd(base, m)); }, m_spec);
+    define(
+        distributions, "ltc_above_horizon",
+        "ltc_above_horizon(m): the integral of the linearly transformed cosine over z > 0.\n\nm (..., 3, 3).",
+        []<class T>(const Mat3<T>& m) { return integrate_above_horizon(ltc(m)); }, m_spec);
+    define(
+        distributions, "ltc_integrate_cap",
+        "ltc_integrate_cap(m, axis, versine): the integral of the linearly transformed cosine over a cap's part at z > "
+        "0,\n"
+        "exact.\n\n"
+        "m (..., 3, 3); axis (..., 3), unit; versine (...) = 1 - cos(half-angle), in [0, 2].",
+        []<class T>(const Mat3<T>& m, const Vec3<T>& axis, T versine) {
+            return integrate_above_horizon(ltc(m), Cap<T>{axis, versine});
+        },
+        m_spec, Direction{"axis"}, Number{.name = "versine", .low = 0, .high = 2});
+    define(
+        distributions, "ltc_integrate_polygon",
+        "ltc_integrate_polygon(m, polygon): the integral of the linearly transformed cosine over a polygon's part at z "
+        "> 0.\n\n"
+        "m (..., 3, 3); polygon (..., n, 3), n >= 3 vertices relative to the shading point, in either order.",
+        []<class T>(const Mat3<T>& m, const std::vector<Vec3<T>>& polygon) {
+            return integrate_above_horizon<T>(ltc(m), std::span<const Vec3<T>>(polygon));
+        },
+        m_spec, Polygon{"polygon"});
 }
 
 }  // namespace pivot::bindings

@@ -3,6 +3,7 @@
 #include "core/tables/axes.h"
 #include "core/tables/ggx_albedo.h"
 #include "core/tables/ggx_dielectric.h"
+#include "core/tables/ggx_ltc.h"
 #include "core/tables/ggx_sptd.h"
 
 namespace pivot::bindings {
@@ -19,6 +20,13 @@ py::array_t<float> nodes(int count, Value value) {
     for (int i = 0; i < count; ++i)
         values.mutable_data()[i] = value(static_cast<float>(i) / static_cast<float>(count - 1));
     return values;
+}
+
+/// As a binding returns it.
+template <class T>
+std::array<Vec3<T>, 3> rows(const Mat3<T>& m) {
+    const Mat3<T> t = glm::transpose(m);
+    return {t[0], t[1], t[2]};
 }
 
 }  // namespace
@@ -55,6 +63,29 @@ void register_tables(py::module_& tables) {
         []<class T>(T alpha, const Vec3<T>& wo) {
             const GgxSptd lobe = ggx_sptd(static_cast<float>(alpha), Vec3f(wo));
             return std::tuple(Vec3<T>(lobe.pivot_local), static_cast<T>(lobe.delta), static_cast<T>(lobe.albedo),
+                              static_cast<T>(lobe.amplitude()));
+        },
+        alpha_spec, Direction{"wo_local"});
+    define(
+        tables, "ggx_ltc_from_node",
+        "ggx_ltc_from_node(alpha, wo_local, shift, width_x, width_y, skew): the matrix (..., 3, 3) that a node of the "
+        "LTC\n"
+        "table stands for.",
+        []<class T>(T alpha, const Vec3<T>& wo, T shift, T width_x, T width_y, T skew) {
+            return rows(ggx_ltc_matrix(alpha, wo, shift, width_x, width_y, skew));
+        },
+        alpha_spec, Direction{"wo_local"}, Number{.name = "shift"},
+        Number{.name = "width_x", .low = 0, .open_low = true}, Number{.name = "width_y", .low = 0, .open_low = true},
+        Number{.name = "skew"});
+    define(
+        tables, "ggx_ltc",
+        "ggx_ltc(alpha, wo_local): the linearly transformed cosine nearest to the GGX lobe, from the table: (m (..., "
+        "3, 3),\n"
+        "albedo (...), amplitude (...)). amplitude times the LTC integrates to albedo over the hemisphere.\n\n"
+        "alpha (...) in [1e-3, 1]; wo_local (..., 3), unit. [Heitz16]",
+        []<class T>(T alpha, const Vec3<T>& wo) {
+            const GgxLtc lobe = ggx_ltc(static_cast<float>(alpha), Vec3f(wo));
+            return std::tuple(rows(Mat3<T>(lobe.lobe_local.m)), static_cast<T>(lobe.albedo),
                               static_cast<T>(lobe.amplitude()));
         },
         alpha_spec, Direction{"wo_local"});

@@ -12,6 +12,7 @@ LUT = Path(__file__).parents[2] / "lut"
 sys.path.insert(0, str(LUT))
 
 import ggx_dielectric  # noqa: E402
+import ggx_ltc  # noqa: E402
 import ggx_sptd  # noqa: E402
 from errors import random_views  # noqa: E402
 from ggx_average_albedo import average_albedo  # noqa: E402
@@ -61,6 +62,51 @@ def test_sptd_keeps_the_albedo_above_the_horizon() -> None:
         assert amplitude * above == pytest.approx(albedo, rel=1e-5)
 
 
+@pytest.mark.parametrize(("row", "column"), [(20, 40), (40, 10), (40, 60), (63, 5), (55, 63)])
+def test_ltc_table_is_what_its_program_fits(row: int, column: int) -> None:
+    stands = stored("ggx_ltc", 64, 64, 4)[row, column].astype(np.float64)
+    lobe = ggx_sptd.make_lobe(float(tables.alpha_nodes(64)[row]), float(tables.cos_nodes(64)[column]))
+    best = ggx_ltc.fit(lobe, np.array(ggx_ltc.START))
+    distance, least = (ggx_ltc.hellinger(lobe, ggx_ltc.matrix(lobe, values)) for values in (stands, best))
+    assert distance == pytest.approx(least, rel=1e-3)
+    np.testing.assert_allclose(stands[1:3], best[1:3], rtol=1e-2)
+
+
+def test_ltc_fetch_at_a_node_is_the_node() -> None:
+    alpha, cos_o = tables.alpha_nodes(64)[1:63, None], tables.cos_nodes(64)[None, 1:63]
+    wo = np.stack([np.sqrt(1 - cos_o**2), 0 * cos_o, cos_o], -1)
+    m, albedo, _ = tables.ggx_ltc(alpha, wo)
+    node = tables.ggx_ltc_from_node(alpha, wo, *np.moveaxis(stored("ggx_ltc", 64, 64, 4)[1:63, 1:63], -1, 0))
+    np.testing.assert_array_equal(albedo, tables.ggx_albedo(alpha, cos_o))
+    columns = np.linalg.norm(node, axis=-2, keepdims=True)
+    assert np.abs((m - node) / columns).max() < 5e-3
+
+
+@pytest.mark.parametrize(
+    ("alpha", "theta_deg", "percent"), [(0.1, 30, 3), (0.1, 75, 21), (0.25, 75, 26), (0.5, 75, 16), (0.9, 30, 3)]
+)
+def test_ltc_is_as_near_to_ggx_as_one_can_be(alpha: float, theta_deg: float, percent: float) -> None:
+    """As near as lut/README.md says, and far nearer than one SPTD."""
+    lobe = ggx_sptd.make_lobe(alpha, float(np.cos(np.radians(theta_deg))))
+    distance = ggx_ltc.l1_distance(lobe, tables.ggx_ltc(alpha, lobe.wo_local)[0])
+    assert round(100 * distance) == percent
+    pivot, delta, *_ = tables.ggx_sptd(alpha, lobe.wo_local)
+    assert distance < 0.6 * ggx_sptd.l1_distance(lobe, pivot, delta)
+
+
+def test_ltc_turns_with_the_view() -> None:
+    m = tables.ggx_ltc(0.3, np.array([0.6, 0.0, 0.8]))[0]
+    turned = tables.ggx_ltc(0.3, np.array([0.0, 0.6, 0.8]))[0]
+    quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    np.testing.assert_allclose(turned, quarter @ m, atol=1e-6)
+
+
+def test_ltc_keeps_the_albedo_above_the_horizon() -> None:
+    for alpha, cos_o in zip(*random_views(200, 2), strict=True):
+        m, albedo, amplitude = tables.ggx_ltc(alpha, view(cos_o))
+        assert amplitude * pd.ltc_integrate_cap(m, NORMAL, 1.0) == pytest.approx(albedo, rel=1e-5)
+
+
 def test_albedo_between_nodes() -> None:
     alpha, cos_o = random_views(200, 3)
     rough = alpha > 0.01
@@ -104,6 +150,7 @@ def test_fetches_are_continuous(seed: int) -> None:
     pivot, delta, *_ = tables.ggx_sptd(alpha, wo)
     assert np.linalg.norm(np.diff(pivot, axis=0), axis=-1).max() < 2e-3
     assert np.abs(np.diff(delta)).max() < 5e-4
+    assert np.abs(np.diff(tables.ggx_ltc(alpha, wo)[0], axis=0)).max() < 2e-3
     assert np.abs(np.diff(tables.ggx_albedo(alpha, cos_o))).max() < 5e-4
     assert np.abs(np.diff(tables.ggx_dielectric_weight(alpha, cos_o, 1.5))).max() < 5e-4
 
