@@ -31,8 +31,8 @@ void require(bool ok, const char* message) {
 
 RenderSettings make_settings(const string& integrator, int samples, std::uint32_t seed, int max_bounces,
                              const string& light_sampling, float error_budget_percent, const string& analytic_method,
-                             const string& occlusion, float time_limit_s, int threads, float filter_width_px,
-                             bool transparent_film) {
+                             const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
+                             float filter_width_px, bool transparent_film) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
@@ -62,6 +62,9 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
             {{"RAY_TRACED", Occlusion::ray_traced}, {"BENT_CONE", Occlusion::bent_cone}, {"NONE", Occlusion::none}}),
         .time_limit_s = time_limit_s,
         .threads = threads,
+        .filter_shape = from_name<PixelFilterShape>(
+            "pixel_filter", pixel_filter,
+            {{"BLACKMAN_HARRIS", PixelFilterShape::blackman_harris}, {"BOX", PixelFilterShape::box}}),
         .filter_width_px = filter_width_px,
         .transparent_film = transparent_film};
 }
@@ -80,7 +83,8 @@ void register_render(py::module_& module) {
              py::arg("seed") = 0, py::arg("max_bounces") = 4, py::arg("light_sampling") = "JOINT",
              py::arg("error_budget_percent") = 2.0f, py::arg("analytic_method") = "AUTO",
              py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
-             py::arg("filter_width_px") = 1.5f, py::arg("transparent_film") = false);
+             py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
+             py::arg("transparent_film") = false);
     py::class_<Session>(module, "Session",
                         "A render by native threads. The scene must not be edited until the session has ended.")
         .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))

@@ -37,7 +37,7 @@ bool is_finite(const Sample& s) {
 Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
     : scene_(std::move(scene)),
       settings_(settings),
-      filter_(settings.filter_width_px),
+      filter_(settings.filter_shape, settings.filter_width_px),
       film_(scene_->camera().window.width(), scene_->camera().window.height()) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }

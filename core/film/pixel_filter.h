@@ -1,5 +1,5 @@
-// The Blackman-Harris pixel filter, by importance: a sample's place in the pixel is drawn from the filter, and every
-// sample weighs the same.
+// The pixel filter, by importance: a sample's place in the pixel is drawn from the filter, and every sample weighs the
+// same. Blackman-Harris, or the box.
 //
 // [Harris78]  On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform
 #pragma once
@@ -10,10 +10,16 @@
 
 namespace pivot {
 
+enum class PixelFilterShape { blackman_harris, box };
+
 class PixelFilter {
    public:
     /// width_px: of the whole window; Cycles' setting of 1.5 is half of it.
-    explicit PixelFilter(float width_px) : width_px_(width_px) {
+    PixelFilter(PixelFilterShape shape, float width_px) : width_px_(width_px) {
+        if (shape == PixelFilterShape::box) {
+            for (std::size_t k = 0; k <= cells; ++k) inverse_[k] = static_cast<float>(k) / cells;
+            return;
+        }
         constexpr std::size_t steps = 64;  // integration steps per table cell
         double sum = 0.0;
         std::array<double, cells * steps + 1> cumulative{};

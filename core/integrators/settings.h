@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/film/pixel_filter.h"
+
 namespace pivot {
 
 enum class Integrator { monte_carlo, analytic };
@@ -29,6 +31,7 @@ struct RenderSettings {
     Occlusion occlusion = Occlusion::ray_traced;
     float time_limit_s = 0.0f;  ///< 0: none
     int threads = 0;            ///< 0: all cores
+    PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
 };

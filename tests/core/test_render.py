@@ -279,3 +279,13 @@ def test_two_renders_live_in_one_process() -> None:
     while not all(session.wait(1.0) for session in sessions):
         pass
     np.testing.assert_array_equal(sessions[0].read("Combined"), sessions[1].read("Combined"))
+
+
+def test_box_filter_is_as_wide_as_it_says() -> None:
+    """The edge between black and emission, where a box of two pixels makes a ramp of two pixels."""
+    scene = pivot_core.Scene()
+    lamp = scene.add_material("lamp", pivot_core.Material(emission=(1, 1, 1)))
+    scene.add_instances("half", add_plane(scene, 1.0), place(1.0), [lamp])
+    set_camera(scene, (0, 0, 10), size=(8, 1), half_width=0.08)
+    row = render(scene, samples=4096, max_bounces=0, pixel_filter="BOX", filter_width_px=2.0)[0, :, 0]
+    np.testing.assert_allclose(row, [0, 0, 0, 0.25, 0.75, 1, 1, 1], atol=1e-3)

@@ -1,0 +1,151 @@
+"""Inside Blender as a module: build a scene of monte_carlo_scenes.py and render it with Cycles or Pivot.
+
+monte_carlo_blender.py FOLDER: does the jobs of FOLDER/jobs.json (see monte_carlo_worker.py).
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+# isort: split
+import addon_utils
+import mathutils
+import monte_carlo_scenes as scenes
+import monte_carlo_worker as worker
+import numpy as np
+from numpy.typing import NDArray
+
+
+def build(scene: scenes.Scene) -> None:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    meshes = {"SPHERE": _sphere(), "PLANE": _plane()}
+    for index, shape in enumerate(scene.shapes):
+        mesh = meshes[shape.kind].copy()
+        mesh.materials.append(_material(shape.material))
+        _link(bpy.data.objects.new(f"{shape.kind} {index}", mesh), shape.world_from_object())
+    for light in scene.lights:
+        _link(_light(light), scenes.look_at(light.location, light.target))
+    camera = bpy.data.cameras.new("camera")
+    camera.angle = 2 * math.atan(scene.half_width)
+    bpy.context.scene.camera = _link(bpy.data.objects.new("camera", camera), scenes.look_at(scene.eye, scene.target))
+    bpy.context.scene.render.resolution_x = scenes.WIDTH
+    bpy.context.scene.render.resolution_y = scenes.HEIGHT
+
+
+def _link(blender_object: bpy.types.Object, world_from_object: NDArray[np.float64]) -> bpy.types.Object:
+    blender_object.matrix_world = mathutils.Matrix(world_from_object.tolist())
+    bpy.context.scene.collection.objects.link(blender_object)
+    return blender_object
+
+
+def _sphere() -> bpy.types.Mesh:
+    vertices, triangles = scenes.sphere_mesh()
+    mesh = bpy.data.meshes.new("sphere")
+    mesh.from_pydata(vertices.tolist(), [], triangles.tolist())
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    return mesh
+
+
+def _plane() -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new("plane")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    return mesh
+
+
+def _material(material: scenes.Material) -> bpy.types.Material:
+    blender_material = bpy.data.materials.new(material.kind)
+    blender_material.use_nodes = True
+    tree = blender_material.node_tree
+    tree.nodes.clear()
+    kind = {"DIFFUSE": "BsdfDiffuse", "GLOSSY": "BsdfGlossy", "PLASTIC": "BsdfPrincipled"}[material.kind]
+    node: Any = tree.nodes.new(f"ShaderNode{kind}")
+    node.inputs[0].default_value = (*material.color, 1)
+    if material.kind != "DIFFUSE":
+        node.inputs["Roughness"].default_value = material.roughness
+        node.distribution = "GGX"
+    tree.links.new(node.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs[0])
+    return blender_material
+
+
+def _light(light: scenes.LightSource) -> bpy.types.Object:
+    area = light.kind in {"RECTANGLE", "ELLIPSE"}
+    data: Any = bpy.data.lights.new(light.kind, "AREA" if area else light.kind)
+    data.energy = light.power_w
+    data.color = light.color
+    if area:
+        data.shape = light.kind
+        data.size, data.size_y = light.size_m
+    else:
+        data.shadow_soft_size = light.size_m[0]
+        data.use_soft_falloff = False
+    if light.kind == "SPOT":
+        data.spot_size, data.spot_blend = light.cone_rad, 0.5
+    return bpy.data.objects.new(light.kind, data)
+
+
+class Cycles:
+    """settings: light_tree."""
+
+    def __init__(self, scene: scenes.Scene, settings: dict[str, Any]) -> None:
+        build(scene)
+        addon_utils.enable("cycles")
+        blender_scene = bpy.context.scene
+        blender_scene.render.engine = "CYCLES"
+        blender_scene.view_layers[0].use_pass_combined = True
+        image = blender_scene.render.image_settings
+        image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
+        cycles: Any = blender_scene.cycles
+        cycles.device = "CPU"
+        cycles.use_adaptive_sampling = False
+        cycles.use_denoising = False
+        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+        cycles.max_bounces = 0
+        cycles.pixel_filter_type = "BOX"
+        cycles.use_light_tree = settings["light_tree"]
+
+    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
+        bpy.context.scene.cycles.samples = samples
+        bpy.context.scene.cycles.seed = seed
+        path = Path(bpy.app.tempdir) / "picture.exr"
+        bpy.context.scene.render.filepath = str(path)
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(str(path))
+        pixels = np.empty(scenes.HEIGHT * scenes.WIDTH * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        bpy.data.images.remove(image)
+        return pixels.reshape(scenes.HEIGHT, scenes.WIDTH, 4)[..., :3]
+
+
+class Pivot:
+    """settings: of pivot_core.RenderSettings."""
+
+    def __init__(self, scene: scenes.Scene, settings: dict[str, Any]) -> None:
+        build(scene)
+        addon_utils.enable("pivot")
+        self._core = importlib.import_module("pivot.core").load()
+        reporter = importlib.import_module("pivot.report").Reporter(print, set())
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        export_scene = importlib.import_module("pivot.export.scene").export_scene
+        self.scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
+        camera: Any = bpy.context.scene.camera
+        view_plane = importlib.import_module("pivot.export.camera").view_plane
+        self.view_plane = view_plane(camera.data, 0.0, scenes.WIDTH, scenes.HEIGHT)
+        self.scene.set_camera(np.array(camera.matrix_world), self.view_plane, scenes.WIDTH, scenes.HEIGHT)
+        self._settings = settings | {"max_bounces": 0, "pixel_filter": "BOX", "filter_width_px": 1.0}
+
+    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
+        settings = self._core.RenderSettings(samples=samples, seed=seed, **self._settings)
+        session = self._core.Session(self.scene, settings)
+        session.start()
+        while not session.wait(60.0):
+            pass
+        return session.read("Combined")[..., :3]
+
+
+if __name__ == "__main__":
+    worker.main({"cycles": Cycles, "pivot": Pivot})
