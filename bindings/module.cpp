@@ -39,6 +39,10 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     auto tables = module.def_submodule("tables", "Tables fitted by lut/, fetched with linear interpolation.");
     register_tables(tables);
 
+    auto shading =
+        module.def_submodule("shading", "Lobes under lights within an error budget, as the renderer does it.");
+    register_shading(shading);
+
     register_scene(module);
     register_rays(module);
     register_render(module);

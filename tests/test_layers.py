@@ -18,6 +18,7 @@ CORE_ROWS = (
     ("distributions",),
     ("tables",),
     ("bsdf", "media", "lights"),
+    ("shading",),
     ("scene",),
     ("film",),
     ("integrators",),

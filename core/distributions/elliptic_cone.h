@@ -130,16 +130,11 @@ GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
     return g;
 }
 
-/// The point at (x, y) of the unit disk: uniform points of the disk, and rules for it, make points of density
-/// pdf_omega. (0, 0) is the highlight's centre. `room` is 1 - x^2 - y^2.
-template <class T>
-GgxCapPoint<T> disk_point(const GgxCap<T>& g, const Vec2<T>& xy, T room) {
-    const T k1 = g.mu / (g.mu + g.mu1), k2 = g.mu / (g.mu + g.mu2);
-    const T major = xy.x * g.major.x + xy.y * g.major.y, minor = xy.y * g.major.x - xy.x * g.major.y;
-    const T cos_e3 = sqrt(room + k1 * sqr(major) + k2 * sqr(minor));
-    const T along = major * sqrt(k1) / cos_e3, across = minor * sqrt(k2) / cos_e3;
-    const Vec2<T> boosted(along * g.major.x - across * g.major.y, along * g.major.y + across * g.major.x);
+namespace detail {
 
+/// Of a place in the cone after the boost, and its direction's cosine to e3.
+template <class T>
+GgxCapPoint<T> boosted_point(const GgxCap<T>& g, const Vec2<T>& boosted, T cos_e3) {
     const T approach = dot(g.velocity, boosted), time = g.gamma * (T(1) + approach);
     const Vec2<T> at = (boosted + g.velocity * (g.gamma * (T(1) + approach * g.gamma / (g.gamma + T(1))))) / time;
     const T x = at.x * g.a1, y = at.y * g.a2, bend = x * x + y * y, length2 = T(1) + bend;
@@ -153,6 +148,20 @@ GgxCapPoint<T> disk_point(const GgxCap<T>& g, const Vec2<T>& xy, T room) {
     const T pdf = cos_e3 * jacobian * jacobian * jacobian /
                   (T(4) * pi<T> * g.form_factor * g.alpha_x * g.alpha_y * cos_oh * inverse_length);
     return {g.cap.axis + offset, (g.b + tilt) * inverse_length, g.form_factor * stretch * cos_oh / g.wo.z, pdf};
+}
+
+}  // namespace detail
+
+/// The point at (x, y) of the unit disk: uniform points of the disk, and rules for it, make points of density
+/// pdf_omega. (0, 0) is the highlight's centre. `room` is 1 - x^2 - y^2.
+template <class T>
+GgxCapPoint<T> disk_point(const GgxCap<T>& g, const Vec2<T>& xy, T room) {
+    const T k1 = g.mu / (g.mu + g.mu1), k2 = g.mu / (g.mu + g.mu2);
+    const T major = xy.x * g.major.x + xy.y * g.major.y, minor = xy.y * g.major.x - xy.x * g.major.y;
+    const T cos_e3 = sqrt(room + k1 * sqr(major) + k2 * sqr(minor));
+    const T along = major * sqrt(k1) / cos_e3, across = minor * sqrt(k2) / cos_e3;
+    return detail::boosted_point(g, {along * g.major.x - across * g.major.y, along * g.major.y + across * g.major.x},
+                                 cos_e3);
 }
 
 /// A direction in the cap by D(h), up to a smooth weight.

@@ -47,6 +47,9 @@ constexpr T select(bool condition, T a, T b) {
     return condition ? a : b;
 }
 
+/// Whether a condition holds in some lane: what a branch around work for all lanes asks.
+constexpr bool any(bool condition) { return condition; }
+
 template <class T>
 constexpr T sqr(T x) {
     return x * x;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "core/math/vector.h"
 
@@ -58,6 +59,39 @@ T gauss_legendre(T low, T width, int panels, const F& f) {
     for (int i = 0; i < panels; ++i) sum += gauss_legendre(low + T(i) * step, step, f);
     return sum;
 }
+
+/// A node of Gauss and Legendre's rule on [0, 1], and the same in an angle: for an integrand that ends like a circle's
+/// chords do, [-1, 1] is swept by the sine of an angle, and the cosine is in the weight.
+struct GaussNode {
+    float x, weight;
+    float sine, sine_weight;
+};
+
+/// n nodes, by Newton's method on the Legendre polynomial.
+template <int n>
+std::array<GaussNode, n> make_gauss_rule() {
+    std::array<GaussNode, n> rule;
+    for (int i = 0; i < n; ++i) {
+        double z = cos(pi<double> * (i + 0.75) / (n + 0.5)), slope = 0;
+        for (int step = 0; step < 20; ++step) {
+            double p = 1, previous = 0;
+            for (int j = 0; j < n; ++j) {
+                const double before = std::exchange(previous, p);
+                p = ((2 * j + 1) * z * p - j * before) / (j + 1);
+            }
+            slope = n * (z * p - previous) / (z * z - 1);
+            z -= p / slope;
+        }
+        const double weight = 1 / ((1 - z * z) * slope * slope), angle = 0.5 * pi<double> * z;
+        rule[static_cast<size_t>(i)] = {static_cast<float>(0.5 * (1 - z)), static_cast<float>(weight),
+                                        static_cast<float>(-sin(angle)),
+                                        static_cast<float>(pi<double> * weight * cos(angle))};
+    }
+    return rule;
+}
+
+template <int n>
+inline const std::array<GaussNode, n> gauss_rule = make_gauss_rule<n>();
 
 /// N points of equal weight in the unit disk: exact for polynomials of degree 1, 3, 3 and 7.
 template <class T, size_t N>

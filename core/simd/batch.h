@@ -33,9 +33,6 @@ inline const Batch tiny<Batch>(tiny<float>);
 using Vec2b = Vec2<Batch>;
 using Vec3b = Vec3<Batch>;
 
-/// Whether a condition holds in some lane, or in all: what a branch around work for all lanes asks.
-inline bool any(bool condition) { return condition; }
-inline bool all(bool condition) { return condition; }
 inline bool any(const BatchMask& condition) { return xsimd::any(condition); }
 inline bool all(const BatchMask& condition) { return xsimd::all(condition); }
 

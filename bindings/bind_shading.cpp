@@ -1,0 +1,90 @@
+#include <pybind11/stl.h>
+
+#include "bindings/register.h"
+#include "bindings/vectorize.h"
+#include "core/shading/ggx_cap_light.h"
+#include "core/simd/batch.h"
+
+namespace pivot::bindings {
+namespace {
+
+constexpr Number alpha_spec{.name = "alpha", .low = double(min_alpha) * (1 - 1e-6), .high = 1};
+constexpr Number half_angle_spec{.name = "half_angle", .low = 0, .high = 1.5707964, .open_low = true};
+constexpr Number budget_spec{.name = "error_budget", .low = 0, .high = 100, .open_low = true};
+
+/// A direction above the surface.
+struct UpperDirection : Direction {
+    template <class T>
+    void check(const T* value, py::ssize_t size) const {
+        Direction::check(value, size);
+        if (!(value[2] > 0)) fail(name, "must be above the surface: z > 0");
+    }
+};
+
+/// Values of n elements, gathered eight at a time.
+struct Gather {
+    const Input<float>& input;
+    const Shape& common;
+    py::ssize_t first, count;
+
+    Batch operator()(int component) const {
+        Lanes lanes;
+        for (py::ssize_t k = 0; k < static_cast<py::ssize_t>(batch_size); ++k)
+            lanes[static_cast<size_t>(k)] = input.at(std::min(first + k, count - 1), common)[component];
+        return load(lanes);
+    }
+    Vec3b direction() const { return {(*this)(0), (*this)(1), (*this)(2)}; }
+};
+
+py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const py::object& cap_axis,
+                           const py::object& half_angle, double error_budget) {
+    budget_spec.check(&error_budget, 1);
+    const UpperDirection wo_spec{{"wo"}};
+    const Direction axis_spec{"cap_axis"};
+    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), axes(axis_spec, cap_axis);
+    const Input<float> half_angles(half_angle_spec, half_angle);
+    Shape common;
+    broadcast(common, alphas.leading, "alpha");
+    broadcast(common, wos.leading, "wo");
+    broadcast(common, axes.leading, "cap_axis");
+    broadcast(common, half_angles.leading, "half_angle");
+
+    const py::ssize_t count = product(common);
+    py::array_t<float> values(common), errors(common);
+    py::array_t<int> methods(common);
+    for (py::ssize_t first = 0; first < count; first += static_cast<py::ssize_t>(batch_size)) {
+        const auto gather = [&](const Input<float>& input) { return Gather{input, common, first, count}; };
+        const GgxLobe<Batch> lobe{gather(wos).direction(), max(gather(alphas)(0), Batch(min_alpha)), Batch(1.0f),
+                                  false};
+        const Cap<Batch> cap{gather(axes).direction(), versine_of_angle(gather(half_angles)(0))};
+        const auto integral = integrate_ggx_cap(lobe, cap, Batch(static_cast<float>(error_budget / 100)));
+        const Lanes value = store(integral.sums.plain), error = store(integral.predicted_error),
+                    method = store(integral.method);
+        for (py::ssize_t i = first; i < std::min(first + static_cast<py::ssize_t>(batch_size), count); ++i) {
+            const auto lane = static_cast<size_t>(i - first);
+            values.mutable_data()[i] = value[lane];
+            errors.mutable_data()[i] = error[lane];
+            methods.mutable_data()[i] = static_cast<int>(method[lane]);
+        }
+    }
+    return py::make_tuple(values[py::tuple()], errors[py::tuple()], methods[py::tuple()]);
+}
+
+}  // namespace
+
+void register_shading(py::module_& shading) {
+    py::list names;
+    for (const std::string_view name : method_names) names.append(py::str(name.data(), name.size()));
+    shading.attr("METHODS") = py::tuple(names);
+    shading.def("ggx_sphere_light", &ggx_sphere_light, py::arg("alpha"), py::arg("wo"), py::arg("cap_axis"),
+                py::arg("half_angle"), py::arg("error_budget"),
+                R"(ggx_sphere_light(alpha, wo, cap_axis, half_angle, error_budget): (value, error, method).
+
+GGX (F = 1, height-correlated masking-shadowing) over a spherical light of radiance 1, cut at the horizon, by the
+cheapest method whose predicted error meets the budget: what the analytic integrator computes. Shading frame, z the
+normal. alpha (n,) in [1e-3, 1]; wo and cap_axis (n, 3), unit, wo above the surface; half_angle (n,) in radians, at
+most pi/2; error_budget in percent, relative to max(value, 1e-3). All broadcast.
+value: reflected over emitted radiance, float32. error: the predicted relative error. method: an index into METHODS.)");
+}
+
+}  // namespace pivot::bindings
