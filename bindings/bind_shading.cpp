@@ -57,7 +57,7 @@ py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const 
         const GgxLobe<Batch> lobe{gather(wos).direction(), max(gather(alphas)(0), Batch(min_alpha)), Batch(1.0f),
                                   false};
         const Cap<Batch> cap{gather(axes).direction(), versine_of_angle(gather(half_angles)(0))};
-        const auto integral = integrate_ggx_cap(lobe, cap, Batch(static_cast<float>(error_budget / 100)));
+        const auto integral = integrate(ggx_cap_light(lobe, cap), Batch(static_cast<float>(error_budget / 100)));
         const Lanes value = store(integral.sums.plain), error = store(integral.predicted_error),
                     method = store(integral.method);
         for (py::ssize_t i = first; i < std::min(first + static_cast<py::ssize_t>(batch_size), count); ++i) {

@@ -112,33 +112,56 @@ void Session::render_pass(std::uint32_t first_sample, std::uint32_t last_sample)
 void Session::render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample) {
     std::vector<Pixel> pixels;
     film_.load(tile, pixels);
-    auto pixel = pixels.begin();
-    for (int y = tile.y0; y < tile.y1; ++y) {
+    const auto place = [&](std::size_t i) {
+        const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
+        return std::pair(tile.x0 + static_cast<int>(i % width), tile.y0 + static_cast<int>(i / width));
+    };
+    std::vector<Ray> rays(pixels.size());
+    std::vector<Sampler> samplers(pixels.size());
+    std::vector<Sample> samples(pixels.size());
+    for (std::uint32_t index = first_sample; index < last_sample; ++index) {
         if (should_stop()) return;  // a tile is all or nothing: every pixel of it keeps the same sample count
-        for (int x = tile.x0; x < tile.x1; ++x, ++pixel) {
-            if (first_sample == 0) see_center(*pixel, x, y);
-            for (std::uint32_t i = first_sample; i < last_sample; ++i) add_sample(*pixel, x, y, i);
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const auto [x, y] = place(i);
+            if (index == 0) see_center(pixels[i], x, y);
+            samplers[i] = sampler(x, y, index);
+            rays[i] = camera_ray(x, y, samplers[i]);
         }
+        if (settings_.integrator == Integrator::analytic) {
+            shade_analytic(*scene_, settings_, rays, index, samples);
+        } else {
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                if (should_stop()) return;
+                samples[i] = trace_path(*scene_, settings_, rays[i], samplers[i]);
+            }
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i) add_sample(pixels[i], samples[i], rays[i], place(i));
     }
     film_.store(tile, pixels);
     pixel_samples_done_ += pixels.size() * (last_sample - first_sample);
 }
 
-void Session::add_sample(Pixel& pixel, int x, int y, std::uint32_t index) {
-    const Camera& camera = scene_->camera();
-    const int frame_x = camera.window.x0 + x;
-    const int frame_y = camera.window.y0 + y;
-    const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
-    const bool analytic = settings_.integrator == Integrator::analytic;
+Sampler Session::sampler(int x, int y, std::uint32_t index) const {
     // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for all.
-    const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
-    const Sampler sampler(analytic ? 0u : hash(place, settings_.seed), index);
-    const Ray ray = camera.ray(center + filter_.sample(sampler.point(0)));
-    const Sample sample =
-        analytic ? shade_analytic(*scene_, settings_, ray, index) : trace_path(*scene_, settings_, ray, sampler);
+    if (settings_.integrator == Integrator::analytic) return Sampler(0u, index);
+    const Window& window = scene_->camera().window;
+    const std::uint32_t place =
+        hash(static_cast<std::uint32_t>(window.x0 + x), static_cast<std::uint32_t>(window.y0 + y));
+    return Sampler(hash(place, settings_.seed), index);
+}
+
+Ray Session::camera_ray(int x, int y, const Sampler& sampler) const {
+    const Camera& camera = scene_->camera();
+    const Vec2f center(static_cast<float>(camera.window.x0 + x) + 0.5f,
+                       static_cast<float>(camera.window.y0 + y) + 0.5f);
+    return camera.ray(center + filter_.sample(sampler.point(0)));
+}
+
+void Session::add_sample(Pixel& pixel, const Sample& sample, const Ray& ray, std::pair<int, int> place) {
     pixel.count += 1;
     if (!is_finite(sample)) {
-        report_bad_sample(frame_x, frame_y, ray);
+        const Window& window = scene_->camera().window;
+        report_bad_sample(window.x0 + place.first, window.y0 + place.second, ray);
         return;
     }
     pixel.sum.radiance += sample.radiance;

@@ -11,6 +11,7 @@
 #include "core/film/film.h"
 #include "core/film/pixel_filter.h"
 #include "core/integrators/settings.h"
+#include "core/sampling/sobol.h"
 #include "core/scene/scene.h"
 
 namespace pivot {
@@ -41,7 +42,9 @@ class Session {
     void run();
     void render_pass(std::uint32_t first_sample, std::uint32_t last_sample);
     void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample);
-    void add_sample(Pixel& pixel, int x, int y, std::uint32_t index);
+    Sampler sampler(int x, int y, std::uint32_t index) const;
+    Ray camera_ray(int x, int y, const Sampler& sampler) const;
+    void add_sample(Pixel& pixel, const Sample& sample, const Ray& ray, std::pair<int, int> place);
     void see_center(Pixel& pixel, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;

@@ -130,6 +130,11 @@ std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point
     return light_point_in_cap(light, cap, point, wi);
 }
 
+float distance_to_light(const Light& light, const Vec3f& point, const Vec3f& wi) {
+    const SphereLight* sphere = sphere_of(light);
+    return sphere ? distance_to_sphere(*sphere, point, wi) : infinity;
+}
+
 LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi) {
     const float pdf_omega = 1.0f / solid_angle(cap);
     if (const auto* sun = std::get_if<SunLight>(&light)) return {wi, infinity, sun->radiance, pdf_omega};

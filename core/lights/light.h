@@ -73,6 +73,9 @@ std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, c
 /// What a ray from a point meets of the light.
 std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point, const Vec3f& wi);
 
+/// How far a cap-shaped light is along a wi that lies in its cap; infinite for a sun.
+float distance_to_light(const Light& light, const Vec3f& point, const Vec3f& wi);
+
 /// The place on a cap-shaped light along a wi that lies in its cap.
 LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi);
 

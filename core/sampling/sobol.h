@@ -52,6 +52,7 @@ inline float to_unit(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p
 /// One sample of one pixel: a sequence of points, asked for by dimension.
 class Sampler {
    public:
+    Sampler() : Sampler(0, 0) {}
     Sampler(std::uint32_t pixel_seed, std::uint32_t sample) : seed_(pixel_seed), sample_(sample) {}
 
     /// A point of a (0, 2)-sequence over the sample index; different dimensions are independent.

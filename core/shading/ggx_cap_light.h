@@ -92,25 +92,58 @@ T number_of(Method method) {
 
 }  // namespace detail
 
-/// A cap of at most a hemisphere, or the whole sphere for a point inside the light. budget: relative.
-/// falloff(omega_i): what the light's radiance is multiplied by towards there; falloff_varies: in some lane, so that
-/// one point is not enough.
-template <class T, class Falloff>
-LobeIntegral<T> integrate_ggx_cap(const GgxLobe<T>& lobe, const Cap<T>& cap, T budget, const Falloff& falloff,
-                                  const Mask<T>& falloff_varies) {
-    const Cap<T> horizon{Vec3<T>(T(0), T(0), T(1)), T(1)};
+/// A lobe and a light's cap, a hemisphere at most or, for a point inside the light, the whole sphere.
+template <class T>
+struct GgxCapLight {
+    GgxLobe<T> lobe;
+    Cap<T> cap;
+    Mask<T> crosses, below;  // the horizon
+    Mask<T> surrounds;       // -wo, so that it has no disk: the horizon's own is cut by it
+    GgxCap<T> chart;
+    IsotropicG2<T> g2;
+};
+
+template <class T>
+GgxCapLight<T> ggx_cap_light(const GgxLobe<T>& lobe, const Cap<T>& cap) {
     const T z = cap.axis.z, sine = sqrt(sin2_half_angle(cap));
     const auto is_wide = cap.versine > T(1);
     const auto crosses = is_wide || z < sine;
-    const auto below = !is_wide && z <= -sine;
-
-    // A light that surrounds -wo has no disk: the horizon's own is cut by it.
     const auto surrounds =
         crosses && T(0.5) * length_squared(lobe.wo_local + cap.axis) < T(1.05) * cap.versine + T(1e-6);
-    const Cap<T> chart_cap{select(surrounds, horizon.axis, cap.axis), select(surrounds, horizon.versine, cap.versine)};
-    const GgxCap<T> g = ggx_cap(lobe.wo_local, chart_cap, lobe.alpha, lobe.alpha);
+    const Cap<T> chart_cap{select(surrounds, Vec3<T>(T(0), T(0), T(1)), cap.axis),
+                           select(surrounds, T(1), cap.versine)};
+    return {lobe,
+            cap,
+            crosses,
+            !is_wide && z <= -sine,
+            surrounds,
+            ggx_cap(lobe.wo_local, chart_cap, lobe.alpha, lobe.alpha),
+            IsotropicG2<T>(lobe.wo_local, lobe.alpha)};
+}
 
-    const IsotropicG2<T> g2(lobe.wo_local, lobe.alpha);
+/// A direction and the lobe, F = 1, over the density that uniform points (x, y) of the unit disk give it: 0 outside of
+/// the light and below the surface.
+template <class T>
+struct LobePoint {
+    Vec3<T> omega_i;
+    T value;
+};
+
+template <class T>
+LobePoint<T> lobe_point(const GgxCapLight<T>& light, const Vec2<T>& xy, T room) {
+    const GgxCapPoint<T> point = disk_point(light.chart, xy, room);
+    const auto is_seen = !light.surrounds || contains(light.cap, point.omega_i);
+    return {point.omega_i, select(is_seen, point.weight * light.g2(point.omega_i.z), T(0))};
+}
+
+/// budget: relative. falloff(omega_i): what the light's radiance is multiplied by towards there; falloff_varies: in
+/// some lane, so that one point is not enough.
+template <class T, class Falloff>
+LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& falloff,
+                          const Mask<T>& falloff_varies) {
+    const auto& [lobe, cap, crosses, below, surrounds, g, g2] = light;
+    const Cap<T> horizon{Vec3<T>(T(0), T(0), T(1)), T(1)};
+    const T z = cap.axis.z, sine = sqrt(sin2_half_angle(cap));
     const detail::LobeSummer<T, Falloff> summer{lobe, g2, falloff, {}};
     const GgxCapPoint<T> center = disk_point(g, Vec2<T>(T(0)), T(1));
     LobeIntegral<T> result;
@@ -184,10 +217,10 @@ LobeIntegral<T> integrate_ggx_cap(const GgxLobe<T>& lobe, const Cap<T>& cap, T b
 }
 
 template <class T>
-LobeIntegral<T> integrate_ggx_cap(const GgxLobe<T>& lobe, const Cap<T>& cap, T budget) {
-    const auto never = cap.versine < T(0);
-    return integrate_ggx_cap(
-        lobe, cap, budget, [](const Vec3<T>&) { return T(1); }, never);
+LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget) {
+    const auto never = light.cap.versine < T(0);
+    return integrate(
+        light, budget, [](const Vec3<T>&) { return T(1); }, never);
 }
 
 }  // namespace pivot

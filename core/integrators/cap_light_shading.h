@@ -1,0 +1,63 @@
+// A sphere, spot or sun over a batch of surfaces: closed forms for what the lobes reflect, and visibility apart.
+#pragma once
+
+#include "core/integrators/fixed_points.h"
+#include "core/integrators/surface_batch.h"
+#include "core/scene/scene.h"
+
+namespace pivot {
+
+/// What each lane reflects of a light towards the viewer.
+struct Reflection {
+    std::array<Rgb, batch_size> diffuse, glossy;
+    Lanes predicted_error;  ///< relative, of glossy
+    std::array<Method, batch_size> method;
+};
+
+/// The share of a light that is seen, so far.
+struct VisibleShare {
+    float seen = 0.0f, all = 0.0f;
+    float value() const { return all > 0.0f ? seen / all : 1.0f; }
+    bool is_mixed() const { return seen > 0.0f && seen < all; }
+};
+
+/// Of one lane, by each lobe's points.
+struct LaneShares {
+    VisibleShare diffuse, glossy;
+    bool is_mixed() const {
+        return diffuse.is_mixed() || glossy.is_mixed() || (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
+    }
+};
+
+/// Of light that nothing hides. `light` must not be an area light.
+class CapLightShading {
+   public:
+    CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings);
+
+    const Reflection& reflection() const { return reflection_; }
+
+    /// Multiplies in the share of the light that each lane sees, by rays towards the fixed points. The diffuse lobe's
+    /// points are spread over the light, the glossy lobe's by the lobe.
+    Reflection seen_by_rays(const Scene& scene, const FixedPoints& points) const;
+
+   private:
+    /// Points begin..end of `all` of each camera sample.
+    struct PointRange {
+        std::uint32_t begin, end, all;
+    };
+    void trace(const Scene& scene, const FixedPoints& points, bool wants_diffuse, bool wants_glossy,
+               const PointRange& range, std::array<LaneShares, batch_size>& shares) const;
+    Batch falloff(const Vec3b& wi_local) const;
+    void reflect_glossy(const RenderSettings& settings);
+    void reflect_diffuse();
+
+    const Light& light_;
+    const SurfaceBatch& batch_;
+    Cap<Batch> cap_;        // shading frame
+    Vec3b spot_direction_;  // shading frame
+    BatchMask falloff_varies_;
+    std::optional<GgxCapLight<Batch>> exact_;
+    Reflection reflection_{};
+};
+
+}  // namespace pivot
