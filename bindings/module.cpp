@@ -45,5 +45,6 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
 
     register_scene(module);
     register_rays(module);
+    register_occlusion(module);
     register_render(module);
 }

@@ -95,6 +95,8 @@ void Session::run() {
         std::chrono::duration_cast<clock::duration>(std::chrono::duration<double>(settings_.time_limit_s));
     deadline_ = settings_.time_limit_s > 0.0f ? start_time_ + limit : clock::time_point::max();
     scene_->commit();
+    if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
+        scene_->trace_bent_cones([this] { return should_stop(); });
     for (std::uint32_t done = 0; done < settings_.samples && !should_stop();) {
         const std::uint32_t pass = std::min({std::max(done, 1u), max_samples_per_pass, settings_.samples - done});
         render_pass(done, done + pass);

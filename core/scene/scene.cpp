@@ -95,6 +95,7 @@ std::uint32_t Scene::add_material(const std::string& name, const Material& mater
 
 std::uint32_t Scene::add_instance(Instance instance) {
     require_editable();
+    bent_cones_.clear();
     require_finite(instance.world_from_object, instance.name);
     at(meshes_, instance.mesh, "mesh");
     if (instance.materials.empty()) throw std::invalid_argument("object '" + instance.name + "' has no material id");
@@ -107,6 +108,7 @@ std::uint32_t Scene::add_instance(Instance instance) {
 
 std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
     require_editable();
+    bent_cones_.clear();
     lights_.push_back(NamedLight{name, light});
     return static_cast<std::uint32_t>(lights_.size() - 1);
 }
@@ -119,11 +121,13 @@ void Scene::set_material(std::uint32_t id, const Material& material) {
 
 void Scene::set_light(std::uint32_t id, const Light& light) {
     require_editable();
+    bent_cones_.clear();
     at_present(lights_, id, "light").light = light;
 }
 
 void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from_object) {
     require_editable();
+    bent_cones_.clear();
     Instance& instance = at_present(instances_, id, "instance");
     require_finite(world_from_object, instance.name);
     instance.world_from_object = world_from_object;
@@ -132,6 +136,7 @@ void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from
 
 void Scene::remove_instance(std::uint32_t id) {
     require_editable();
+    bent_cones_.clear();
     at_present(instances_, id, "instance");
     instances_[id].reset();
     ray_tracer_.remove_instance(id);
@@ -139,12 +144,14 @@ void Scene::remove_instance(std::uint32_t id) {
 
 void Scene::remove_light(std::uint32_t id) {
     require_editable();
+    bent_cones_.clear();
     at_present(lights_, id, "light");
     lights_[id].reset();
 }
 
 void Scene::set_world(const Rgb& radiance) {
     require_editable();
+    bent_cones_.clear();
     if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
     world_ = radiance;
 }
@@ -179,6 +186,28 @@ void Scene::commit() {
             has_unsampled_light_ = has_unsampled_light_ || materials_[material].is_emissive();
         }
     }
+}
+
+void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
+    if (!bent_cones_.empty()) return;
+    LightReach reach{.positions = {}, .is_infinite = max_component(world_) > 0.0f};
+    for (const Light& light : active_lights_) {
+        if (const auto* sphere = std::get_if<SphereLight>(&light)) reach.positions.push_back(sphere->center);
+        if (const auto* spot = std::get_if<SpotLight>(&light)) reach.positions.push_back(spot->sphere.center);
+        if (const auto* area = std::get_if<AreaLight>(&light)) reach.positions.push_back(area->center);
+        reach.is_infinite = reach.is_infinite || std::holds_alternative<SunLight>(light);
+    }
+    std::vector<std::shared_ptr<const BentConeSites>> sites(meshes_.size());
+    std::vector<std::optional<BentCones>> cones(instances_.size());
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (!instances_[i]) continue;
+        const Mesh& mesh = *meshes_[instances_[i]->mesh];
+        auto& of_mesh = sites[instances_[i]->mesh];
+        if (!of_mesh) of_mesh = std::make_shared<const BentConeSites>(mesh);
+        cones[i].emplace(ray_tracer_, mesh, of_mesh, instances_[i]->world_from_object, reach, should_stop);
+        if (should_stop()) return;
+    }
+    bent_cones_ = std::move(cones);
 }
 
 std::size_t Scene::memory_bytes() const {
@@ -220,7 +249,8 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
     }
     // A normal of the wrong side (flipped custom normals) is turned with the surface it belongs to.
     if (dot(normal_shading, normal_geometric) < 0.0f) normal_shading = -normal_shading;
-    if (dot(normal_geometric, wo) < 0.0f) {
+    const bool is_front = dot(normal_geometric, wo) >= 0.0f;
+    if (!is_front) {
         normal_geometric = -normal_geometric;
         normal_shading = -normal_shading;
     }
@@ -231,6 +261,7 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
             .normal_geometric = normal_geometric,
             .frame = frame,
             .error_m = error_per_magnitude * max_component(magnitude),
+            .is_front = is_front,
             .instance = hit.instance,
             .material = &materials_[material],
             .wo_local = frame.to_local(wo)};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lights/light.h"
+#include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
 #include "core/scene/surface_point.h"
 
@@ -41,6 +42,9 @@ class Scene {
 
     /// Makes the scene ready for rays. Throws std::invalid_argument without a camera.
     void commit();
+    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(). None are there
+    /// once should_stop has returned true.
+    void trace_bent_cones(const std::function<bool()>& should_stop);
 
     /// While a render holds the scene, every edit throws std::logic_error.
     void hold() { ++holders_; }
@@ -65,6 +69,10 @@ class Scene {
         ray_tracer_.occluded(rays, occluded_rays);
     }
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const;
+    /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
+    Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
+        return bent_cones_[hit.instance]->at(hit, point.is_front);
+    }
 
    private:
     void require_editable() const;
@@ -74,6 +82,7 @@ class Scene {
     std::vector<std::optional<Instance>> instances_;
     std::vector<std::optional<NamedLight>> lights_;
     std::vector<Light> active_lights_;
+    std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     Rgb world_{0.0f};
     Camera camera_;
     bool has_unsampled_light_ = false;

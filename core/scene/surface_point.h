@@ -11,6 +11,7 @@ struct SurfacePoint {
     Vec3f normal_geometric;  ///< towards the viewer
     Frame<float> frame;      ///< z: the shading normal, towards the viewer
     float error_m;           ///< bound of position's rounding error
+    bool is_front;           ///< whether normal_geometric is the triangle's own, not turned
     std::uint32_t instance;
     const Material* material;
     Vec3f wo_local;

@@ -1,0 +1,26 @@
+// What bent cones leave of a light, lobe by lobe.
+//   [Dupuy17] "A Spherical Cap Preserving Parameterization for Spherical Distributions", Sec 5.4
+//
+// Lobe, light and visibility integrated at once: the lobe's mass in light, bent cone and horizon [Dupuy17 (23)]. Given
+// as a share of its mass in light and horizon, it serves whatever integrates the light better than one SPTD does.
+#pragma once
+
+#include "core/distributions/cap.h"
+#include "core/lights/light.h"
+#include "core/scene/surface_point.h"
+
+namespace pivot {
+
+/// Shares of the light that each lobe reflects, 0..1.
+struct SeenShare {
+    float diffuse, glossy;
+};
+
+/// bent_cone: world space, of Scene::bent_cone. An area light counts as a cap of its direction and solid angle.
+SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point,
+                     const Surface& surface);
+
+/// The same of light from all around.
+SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Surface& surface);
+
+}  // namespace pivot
