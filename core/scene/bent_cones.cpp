@@ -13,7 +13,8 @@ constexpr std::size_t ray_count = 128;
 /// How far towards a triangle's middle a ray starts: clear of walls that stand on its edges.
 constexpr float inset = 1.0f / 64.0f;
 
-/// Uniform over the hemisphere about z, in opposite pairs of azimuths: their mean is exactly along z.
+/// Uniform over the hemisphere about z, in opposite pairs of azimuths: their mean is exactly along z. Neighbours in a
+/// packet are of like azimuth.
 std::array<Vec3f, ray_count> hemisphere_points() {
     std::array<Vec3f, ray_count> points;
     constexpr float golden_angle = 2.39996323f;
@@ -23,6 +24,8 @@ std::array<Vec3f, ray_count> hemisphere_points() {
         points[2 * i] = {radius * cos(phi), radius * sin(phi), z};
         points[2 * i + 1] = {-points[2 * i].x, -points[2 * i].y, z};
     }
+    std::sort(points.begin(), points.end(),
+              [](const Vec3f& a, const Vec3f& b) { return atan2(a.y, a.x) < atan2(b.y, b.x); });
     return points;
 }
 
