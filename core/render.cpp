@@ -32,6 +32,16 @@ bool is_finite(const Sample& s) {
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.predicted_error);
 }
 
+void add(Sample& sum, const Sample& sample) {
+    sum.radiance += sample.radiance;
+    sum.alpha += sample.alpha;
+    sum.normal += sample.normal;
+    sum.albedo += sample.albedo;
+    sum.emission += sample.emission;
+    sum.method += sample.method;
+    sum.predicted_error += sample.predicted_error;
+}
+
 }  // namespace
 
 Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
@@ -114,65 +124,64 @@ void Session::render_pass(std::uint32_t first_sample, std::uint32_t last_sample)
 void Session::render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample) {
     std::vector<Pixel> pixels;
     film_.load(tile, pixels);
-    const auto place = [&](std::size_t i) {
-        const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
-        return std::pair(tile.x0 + static_cast<int>(i % width), tile.y0 + static_cast<int>(i / width));
-    };
-    std::vector<Ray> rays(pixels.size());
-    std::vector<Sampler> samplers(pixels.size());
-    std::vector<Sample> samples(pixels.size());
-    for (std::uint32_t index = first_sample; index < last_sample; ++index) {
+    const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
+    std::span<Pixel> left = pixels;
+    for (int y = tile.y0; y < tile.y1; ++y, left = left.subspan(width)) {
         if (should_stop()) return;  // a tile is all or nothing: every pixel of it keeps the same sample count
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const auto [x, y] = place(i);
-            if (index == 0) see_center(pixels[i], x, y);
-            samplers[i] = sampler(x, y, index);
-            rays[i] = camera_ray(x, y, samplers[i]);
-        }
-        if (settings_.integrator == Integrator::analytic) {
-            shade_analytic(*scene_, settings_, rays, index, samples);
-        } else {
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                if (should_stop()) return;
-                samples[i] = trace_path(*scene_, settings_, rays[i], samplers[i]);
-            }
-        }
-        for (std::size_t i = 0; i < pixels.size(); ++i) add_sample(pixels[i], samples[i], rays[i], place(i));
+        const std::span<Pixel> row = left.first(width);
+        for (std::size_t i = 0; first_sample == 0 && i < width; ++i)
+            see_center(row[i], tile.x0 + static_cast<int>(i), y);
+        add_samples(row, tile.x0, y, first_sample, last_sample);
     }
     film_.store(tile, pixels);
     pixel_samples_done_ += pixels.size() * (last_sample - first_sample);
 }
 
-Sampler Session::sampler(int x, int y, std::uint32_t index) const {
-    // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for all.
-    if (settings_.integrator == Integrator::analytic) return Sampler(0u, index);
-    const Window& window = scene_->camera().window;
-    const std::uint32_t place =
-        hash(static_cast<std::uint32_t>(window.x0 + x), static_cast<std::uint32_t>(window.y0 + y));
-    return Sampler(hash(place, settings_.seed), index);
-}
-
-Ray Session::camera_ray(int x, int y, const Sampler& sampler) const {
+void Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample) {
     const Camera& camera = scene_->camera();
-    const Vec2f center(static_cast<float>(camera.window.x0 + x) + 0.5f,
-                       static_cast<float>(camera.window.y0 + y) + 0.5f);
-    return camera.ray(center + filter_.sample(sampler.point(0)));
-}
-
-void Session::add_sample(Pixel& pixel, const Sample& sample, const Ray& ray, std::pair<int, int> place) {
-    pixel.count += 1;
-    if (!is_finite(sample)) {
-        const Window& window = scene_->camera().window;
-        report_bad_sample(window.x0 + place.first, window.y0 + place.second, ray);
-        return;
+    const bool analytic = settings_.integrator == Integrator::analytic;
+    const int frame_y = camera.window.y0 + y;
+    const std::size_t count = last_sample - first_sample;
+    std::vector<Ray> rays(row.size() * count);
+    std::vector<Sampler> samplers(rays.size());
+    std::vector<Sample> samples(rays.size());
+    // Paths of one pixel side by side, but analytic samples of one index: what they share goes together in a batch.
+    const auto place_of = [&](std::size_t pixel, std::size_t sample) {
+        return analytic ? sample * row.size() + pixel : pixel * count + sample;
+    };
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const int frame_x = camera.window.x0 + x0 + static_cast<int>(i);
+        const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
+        // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for
+        // all.
+        const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
+        const std::uint32_t seed = analytic ? 0u : hash(place, settings_.seed);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Sampler sampler(seed, first_sample + static_cast<std::uint32_t>(k));
+            samplers[place_of(i, k)] = sampler;
+            rays[place_of(i, k)] = camera.ray(center + filter_.sample(sampler.point(0)));
+        }
     }
-    pixel.sum.radiance += sample.radiance;
-    pixel.sum.alpha += sample.alpha;
-    pixel.sum.normal += sample.normal;
-    pixel.sum.albedo += sample.albedo;
-    pixel.sum.emission += sample.emission;
-    pixel.sum.method += sample.method;
-    pixel.sum.predicted_error += sample.predicted_error;
+    if (analytic) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto first = k * row.size();
+            shade_analytic(*scene_, settings_, std::span(rays).subspan(first, row.size()),
+                           first_sample + static_cast<std::uint32_t>(k), std::span(samples).subspan(first, row.size()));
+        }
+    } else {
+        trace_paths(*scene_, settings_, rays, samplers, samples);
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Sample& sample = samples[place_of(i, k)];
+            row[i].count += 1;
+            if (is_finite(sample)) {
+                add(row[i].sum, sample);
+            } else {
+                report_bad_sample(camera.window.x0 + x0 + static_cast<int>(i), frame_y, rays[place_of(i, k)]);
+            }
+        }
+    }
 }
 
 void Session::see_center(Pixel& pixel, int x, int y) const {

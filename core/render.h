@@ -42,9 +42,8 @@ class Session {
     void run();
     void render_pass(std::uint32_t first_sample, std::uint32_t last_sample);
     void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample);
-    Sampler sampler(int x, int y, std::uint32_t index) const;
-    Ray camera_ray(int x, int y, const Sampler& sampler) const;
-    void add_sample(Pixel& pixel, const Sample& sample, const Ray& ray, std::pair<int, int> place);
+    /// Adds the samples to part of row y of the window, from x0 on.
+    void add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample);
     void see_center(Pixel& pixel, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;

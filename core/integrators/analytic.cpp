@@ -2,6 +2,7 @@
 
 #include "core/integrators/area_light_shading.h"
 #include "core/integrators/cap_light_shading.h"
+#include "core/integrators/specular_occlusion.h"
 #include "core/sampling/warp.h"
 
 namespace pivot {
@@ -43,20 +44,27 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
     for (const Light& light : scene.lights()) {
         const bool is_area = std::holds_alternative<AreaLight>(light);
         const bool hides = settings.occlusion == Occlusion::ray_traced;
-        const Reflection reflection = [&] {
+        Reflection reflection = [&] {
             if (is_area) return shade_area_light(scene, std::get<AreaLight>(light), batch, settings, points);
             const CapLightShading shading(light, batch, settings);
             return hides ? shading.seen_by_rays(scene, points) : shading.reflection();
         }();
         for (std::size_t i = 0; i < batch.count; ++i) {
+            if (settings.occlusion == Occlusion::bent_cone) {
+                const auto& [point, surface, bent_cone] = *batch.lanes[i];
+                const SeenShare share = seen_share(light, bent_cone, point, surface);
+                reflection.diffuse[i] *= share.diffuse;
+                reflection.glossy[i] *= share.glossy;
+            }
             gathered[i].add(reflection.diffuse[i], Method::points_1, 0.0f);
             gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.predicted_error[i]);
         }
     }
 }
 
-Rgb shade_world(const Scene& scene, const ShadingPoint& shading, const FixedPoints& points) {
-    const auto& [point, surface] = shading;
+Rgb shade_world(const Scene& scene, const ShadingPoint& shading, const RenderSettings& settings,
+                const FixedPoints& points) {
+    const auto& [point, surface, bent_cone] = shading;
     std::vector<Ray> rays;
     std::vector<Rgb> weights;
     const auto add = [&](const Vec3f& wi_local, const Rgb& weight) {
@@ -77,10 +85,13 @@ Rgb shade_world(const Scene& scene, const ShadingPoint& shading, const FixedPoin
         add(wi_local, eval_glossy(surface, wi_local) / ggx_pdf_omega(surface.wo_local, wi_local, alpha, alpha));
     }
     std::vector<std::uint8_t> occluded(rays.size());
-    scene.occluded(rays, occluded);
+    if (settings.occlusion == Occlusion::ray_traced) scene.occluded(rays, occluded);
     Rgb reflected(0.0f);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (!occluded[i]) reflected += weights[i];
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const bool is_hidden =
+            settings.occlusion == Occlusion::bent_cone ? !contains(bent_cone, rays[i].direction) : occluded[i] != 0;
+        if (!is_hidden) reflected += weights[i];
+    }
     return scene.world() * reflected / static_cast<float>(count);
 }
 
@@ -90,7 +101,7 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Fixed
     if (batch.has_diffuse || batch.has_glossy) add_lights(scene, settings, points, batch, gathered);
     if (max_component(scene.world()) > 0.0f) {
         for (std::size_t i = 0; i < shading.size(); ++i)
-            gathered[i].add(shade_world(scene, shading[i], points), Method::point_set, 0.0f);
+            gathered[i].add(shade_world(scene, shading[i], settings, points), Method::point_set, 0.0f);
     }
 }
 
@@ -115,7 +126,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
         sample.albedo = surface.diffuse;
         sample.emission = point.material->emission;
         sample.radiance = point.material->emission;
-        shading.push_back({point, surface});
+        shading.push_back({point, surface, {}});
+        if (settings.occlusion == Occlusion::bent_cone) shading.back().bent_cone = scene.bent_cone(*hits[i], point);
         pixel.push_back(i);
     }
     const FixedPoints points(settings, sample_index);

@@ -7,7 +7,7 @@ Reflection shade_area_light(const Scene& scene, const AreaLight& light, const Su
     Reflection reflection{};
     const Light any_light = light;
     for (std::size_t i = 0; i < batch.count; ++i) {
-        const auto& [point, surface] = *batch.lanes[i];
+        const auto& [point, surface, bent_cone] = *batch.lanes[i];
         const std::uint32_t count = points.count();
         for (std::uint32_t k = 0; k < count; ++k) {
             const auto place = sample_light(any_light, point.position, points.point(PointSet::light_diffuse, k, count));

@@ -90,10 +90,13 @@ float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const
     return 0.0f;
 }
 
-std::optional<LightPoint> LightSampler::sample(float u_technique, const Vec2f& u) const {
+std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
     if (!cap_) return sample_light(light_, point_.position, u);
-    const Vec3f wi_local = sample_in_cap(u_technique < glossy_probability_ ? glossy_technique_ : diffuse_technique_, u);
+    // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
+    const bool glossy = u.x < glossy_probability_;
+    const float u_x = glossy ? u.x / glossy_probability_ : (u.x - glossy_probability_) / (1.0f - glossy_probability_);
+    const Vec3f wi_local = sample_in_cap(glossy ? glossy_technique_ : diffuse_technique_, {u_x, u.y});
     LightPoint place = light_point_in_cap(light_, *cap_, point_.position, point_.frame.to_world(wi_local));
     place.pdf_omega = pdf_omega(place);
     return place;

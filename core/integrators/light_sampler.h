@@ -31,8 +31,8 @@ class LightSampler {
     /// Whether BSDF samples take part; if not, those that meet this light count nothing.
     bool shares_with_bsdf() const { return shares_with_bsdf_; }
 
-    /// Nothing where the light does not reach the point, or by strategy bsdf. u_technique chooses within the mixture.
-    std::optional<LightPoint> sample(float u_technique, const Vec2f& u) const;
+    /// Nothing where the light does not reach the point, or by strategy bsdf.
+    std::optional<LightPoint> sample(const Vec2f& u) const;
 
     /// Density of sample() at a place on the light.
     float pdf_omega(const LightPoint& place) const;

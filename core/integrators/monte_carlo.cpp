@@ -1,7 +1,7 @@
 #include "core/integrators/monte_carlo.h"
 
+#include "core/integrators/direct_light.h"
 #include "core/integrators/light_choice.h"
-#include "core/integrators/light_sampler.h"
 
 namespace pivot {
 namespace {
@@ -9,160 +9,114 @@ namespace {
 constexpr std::uint32_t first_roulette_bounce = 3;
 constexpr float max_roulette_survival = 0.95f;
 
-/// Sampler dimensions of one bounce: the BSDF's two, the choice of a light, then two per light.
-struct Dimensions {
-    std::uint32_t base;
-
-    Dimensions(std::uint32_t bounce, std::size_t light_count)
-        : base(1 + bounce * (3 + 2 * static_cast<std::uint32_t>(light_count))) {}
-
-    std::uint32_t lobe() const { return base; }
-    std::uint32_t direction() const { return base + 1; }
-    std::uint32_t light_choice() const { return base + 2; }
-    std::uint32_t light_technique(std::size_t light) const { return base + 3 + 2 * static_cast<std::uint32_t>(light); }
-    std::uint32_t light_place(std::size_t light) const { return light_technique(light) + 1; }
-};
-
-/// A path's vertex: what its light samples and its BSDF sample both need.
-struct Vertex {
-    const Scene& scene;
-    const RenderSettings& settings;
-    const Sampler& sampler;
-    const SurfacePoint& point;
-    const Surface& surface;
-    Dimensions dimensions;
-    bool samples_all_lights;
-
-    /// Where one light stands for all, its samples share with BSDF samples even by strategy joint: the choice is by
-    /// irradiance, and a highlight of a light that is seldom chosen is the BSDF's to find.
-    bool shares_with_bsdf(const LightSampler& light) const {
-        return samples_all_lights ? light.shares_with_bsdf() : settings.light_sampling != LightSampling::light;
-    }
-};
-
-/// MIS by the balance heuristic.
-float balance(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
-
-bool is_visible(const Scene& scene, const SurfacePoint& point, const LightPoint& place) {
-    // The light's own surface is no occluder; a mesh that touches it should not become one by rounding.
-    return !scene.occluded({point.ray_origin(place.wi), place.wi, 0.0f, place.distance_m * (1.0f - 1e-5f)});
-}
-
-struct DirectLight {
-    Rgb radiance{0.0f};
-    bool shares_with_bsdf = false;  ///< whether BSDF samples must be traced for some light
-};
-
-/// One sample of a light that is chosen with the given probability.
-DirectLight sample_light_at(const Vertex& vertex, std::size_t index, float probability) {
-    const LightSampler light(vertex.scene.lights()[index], vertex.point, vertex.surface,
-                             vertex.settings.light_sampling);
-    DirectLight direct{.shares_with_bsdf = vertex.shares_with_bsdf(light)};
-    const auto place = light.sample(vertex.sampler.number(vertex.dimensions.light_technique(index)),
-                                    vertex.sampler.point(vertex.dimensions.light_place(index)));
-    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return direct;
-    const float pdf = probability * place->pdf_omega;
-    const Vec3f wi_local = vertex.point.frame.to_local(place->wi);
-    const Rgb reflected = eval(vertex.surface, wi_local) * place->radiance / pdf;
-    if (max_component(reflected) <= 0.0f || !is_visible(vertex.scene, vertex.point, *place)) return direct;
-    const float weight = direct.shares_with_bsdf ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
-    direct.radiance = weight * reflected;
-    return direct;
-}
-
-DirectLight sample_lights(const Vertex& vertex) {
-    const auto& lights = vertex.scene.lights();
-    DirectLight direct;
-    if (vertex.samples_all_lights) {
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            const DirectLight one = sample_light_at(vertex, i, 1.0f);
-            direct.radiance += one.radiance;
-            direct.shares_with_bsdf |= one.shares_with_bsdf;
-        }
-        return direct;
-    }
-    const auto choice = choose_light(lights, vertex.point, vertex.sampler.number(vertex.dimensions.light_choice()));
-    if (choice) direct = sample_light_at(vertex, choice->light, choice->probability);
-    return direct;
-}
-
 /// What a BSDF sample that reaches distance_m meets of the lights, weighted against their own samples.
-Rgb lights_met(const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega, float distance_m) {
-    const auto& lights = vertex.scene.lights();
+Rgb lights_met(const Scene& scene, LightSampling strategy, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
+               float distance_m) {
+    const auto& lights = scene.lights();
     Rgb radiance(0.0f);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto place = intersect_light(lights[i], vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        const LightSampler light(lights[i], vertex.point, vertex.surface, vertex.settings.light_sampling);
-        if (!vertex.shares_with_bsdf(light)) continue;
+        const LightSampler light(lights[i], vertex.point, vertex.surface, strategy);
+        if (!shares_with_bsdf(vertex, light, strategy)) continue;
         const float probability = vertex.samples_all_lights ? 1.0f : choice_probability(lights, vertex.point, i);
         radiance += place->radiance * balance(bsdf_pdf_omega, probability * light.pdf_omega(*place));
     }
     return radiance;
 }
 
-}  // namespace
+/// One light for all, as seen from a vertex behind the first. Whether BSDF samples must be traced for some light.
+bool add_one_light(const Scene& scene, LightSampling strategy, const Vertex& vertex, Rgb& radiance) {
+    const auto choice =
+        choose_light(scene.lights(), vertex.point, vertex.sampler.number(vertex.dimensions.light_choice()));
+    if (!choice) return false;
+    const LightCandidate light = sample_light_at(scene, strategy, vertex, choice->light, choice->probability);
+    if (max_component(light.radiance) > 0.0f && !scene.occluded(light.ray)) radiance += light.radiance;
+    return light.shares_with_bsdf;
+}
 
-Sample trace_path(const Scene& scene, const RenderSettings& settings, const Ray& camera_ray, const Sampler& sampler) {
-    Sample sample;
-    Ray ray = camera_ray;
-    auto hit = scene.intersect(ray, visible_to_camera);
-    if (!hit) {
-        if (settings.transparent_film) sample.alpha = 0.0f;
-        if (!settings.transparent_film) sample.radiance = scene.world();
-        return sample;
-    }
+/// The path from its first vertex on, whose own light is in. shares: whether the first BSDF sample counts lights.
+void follow_path(const Scene& scene, const RenderSettings& settings, Vertex vertex, bool shares, Sample& sample) {
+    const LightSampling strategy = settings.light_sampling;
     Rgb throughput(1.0f);
     for (std::uint32_t bounce = 0;; ++bounce) {
-        const SurfacePoint point = scene.surface_point(ray, *hit);
-        const Material& material = *point.material;
-        sample.radiance += throughput * material.emission;
-        if (bounce > settings.max_bounces) break;
-
-        const Surface surface = make_surface(material, point.wo_local);
-        if (bounce == 0) {
-            sample.normal = point.frame.z;
-            sample.albedo = surface.diffuse;
-            sample.emission = material.emission;
-        }
-        const Vertex vertex{.scene = scene,
-                            .settings = settings,
-                            .sampler = sampler,
-                            .point = point,
-                            .surface = surface,
-                            .dimensions = Dimensions(bounce, scene.lights().size()),
-                            .samples_all_lights = bounce == 0};
-        const DirectLight direct = sample_lights(vertex);
-        sample.radiance += throughput * direct.radiance;
-        if (bounce == settings.max_bounces && !direct.shares_with_bsdf && !scene.has_unsampled_light()) break;
-
-        const Vec3f wi_local = pivot::sample(surface, sampler.number(vertex.dimensions.lobe()),
-                                             sampler.point(vertex.dimensions.direction()));
+        if (bounce == settings.max_bounces && !shares && !scene.has_unsampled_light()) return;
+        const SurfacePoint& point = vertex.point;
+        const Vec3f wi_local = pivot::sample(vertex.surface, vertex.sampler.number(vertex.dimensions.lobe()),
+                                             vertex.sampler.point(vertex.dimensions.direction()));
         const Vec3f wi = point.frame.to_world(wi_local);
-        const float bsdf_pdf_omega = pdf_omega(surface, wi_local);
-        if (!(bsdf_pdf_omega > 0.0f) || !point.faces(wi)) break;
-        throughput *= eval(surface, wi_local) / bsdf_pdf_omega;
-        if (max_component(throughput) <= 0.0f) break;
+        const float bsdf_pdf_omega = pdf_omega(vertex.surface, wi_local);
+        if (!(bsdf_pdf_omega > 0.0f) || !point.faces(wi)) return;
+        throughput *= eval(vertex.surface, wi_local) / bsdf_pdf_omega;
+        if (max_component(throughput) <= 0.0f) return;
 
-        ray = {point.ray_origin(wi), wi};
-        hit = scene.intersect(ray, visible_to_light);
+        const Ray ray{point.ray_origin(wi), wi};
+        const auto hit = scene.intersect(ray, visible_to_light);
         const float reached_m = hit ? hit->distance_m : ray.far_m;
-        if (direct.shares_with_bsdf) {
-            sample.radiance += throughput * lights_met(vertex, wi, bsdf_pdf_omega, reached_m);
+        if (shares) {
+            sample.radiance += throughput * lights_met(scene, strategy, vertex, wi, bsdf_pdf_omega, reached_m);
         }
         if (!hit) {
             sample.radiance += throughput * scene.world();
-            break;
+            return;
         }
         if (bounce >= first_roulette_bounce) {
             const float survival = std::min(max_component(throughput), max_roulette_survival);
             // The lobe's second number is free: the first chose the lobe.
-            if (sampler.point(vertex.dimensions.lobe()).y >= survival) break;
+            if (vertex.sampler.point(vertex.dimensions.lobe()).y >= survival) return;
             throughput /= survival;
         }
+        vertex.point = scene.surface_point(ray, *hit);
+        sample.radiance += throughput * vertex.point.material->emission;
+        if (bounce == settings.max_bounces) return;
+        vertex.surface = make_surface(*vertex.point.material, vertex.point.wo_local);
+        vertex.dimensions = Dimensions(bounce + 1, scene.lights().size());
+        vertex.samples_all_lights = false;
+        Rgb direct(0.0f);
+        shares = add_one_light(scene, strategy, vertex, direct);
+        sample.radiance += throughput * direct;
     }
-    return sample;
+}
+
+}  // namespace
+
+void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
+                 std::span<const Sampler> samplers, std::span<Sample> samples) {
+    std::vector<std::optional<RayHit>> hits(camera_rays.size());
+    scene.intersect(camera_rays, visible_to_camera, hits);
+    std::vector<Vertex> vertices;
+    std::vector<std::size_t> places;  // of the vertices' samples
+    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
+        Sample& sample = samples[i];
+        sample = {};
+        if (!hits[i]) {
+            if (settings.transparent_film) sample.alpha = 0.0f;
+            if (!settings.transparent_film) sample.radiance = scene.world();
+            continue;
+        }
+        const SurfacePoint point = scene.surface_point(camera_rays[i], *hits[i]);
+        const Material& material = *point.material;
+        const Surface surface = make_surface(material, point.wo_local);
+        sample.radiance = material.emission;
+        sample.normal = point.frame.z;
+        sample.albedo = surface.diffuse;
+        sample.emission = material.emission;
+        places.push_back(i);
+        vertices.push_back({.sampler = samplers[i],
+                            .point = point,
+                            .surface = surface,
+                            .dimensions = Dimensions(0, scene.lights().size()),
+                            .samples_all_lights = true});
+    }
+    std::vector<Rgb> direct(vertices.size(), Rgb(0.0f));
+    std::vector<std::uint8_t> shares(vertices.size(), 0);
+    add_all_lights(scene, settings.light_sampling, vertices, direct, shares);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Sample& sample = samples[places[i]];
+        sample.radiance += direct[i];
+        follow_path(scene, settings, vertices[i], shares[i] != 0, sample);
+    }
 }
 
 }  // namespace pivot

@@ -8,7 +8,9 @@
 
 namespace pivot {
 
-/// One camera sample. The scene is committed; sampler dimension 0 is the caller's.
-Sample trace_path(const Scene& scene, const RenderSettings& settings, const Ray& camera_ray, const Sampler& sampler);
+/// Camera samples, best of neighbouring pixels: they are traced in packets. The scene is committed; sampler dimension 0
+/// is the caller's. samples: one per ray, overwritten.
+void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
+                 std::span<const Sampler> samplers, std::span<Sample> samples);
 
 }  // namespace pivot

@@ -13,6 +13,7 @@ namespace pivot {
 struct ShadingPoint {
     SurfacePoint point;
     Surface surface;
+    Cap<float> bent_cone;  ///< world space, where occlusion is by bent cones
 };
 
 struct SurfaceBatch {

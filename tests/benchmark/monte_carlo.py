@@ -193,17 +193,13 @@ def print_table(rows: list[dict[str, Any]]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument(
-        "--blender", nargs="+", default=[sys.executable], help="Pythons with bpy; the first has Pivot"
-    )
+    parser.add_argument("--blender", nargs="+", default=[sys.executable], help="Pythons with bpy; the first has Pivot")
     parser.add_argument("--mitsuba", default=sys.executable, help="a Python with mitsuba")
     parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=list(scenes.SCENES))
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--reference", type=int, default=2048, help="samples of a reference")
     parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument(
-        "--only", nargs="+", help="measure these renderers; of others, the last pictures"
-    )
+    parser.add_argument("--only", nargs="+", help="measure these renderers; of others, the last pictures")
     arguments = parser.parse_args()
     OUTPUT.mkdir(parents=True, exist_ok=True)
     renderers = find_renderers(arguments.blender, arguments.mitsuba)
