@@ -87,11 +87,9 @@ Rgb shade_world(const Scene& scene, const ShadingPoint& shading, const RenderSet
     std::vector<std::uint8_t> occluded(rays.size());
     if (settings.occlusion == Occlusion::ray_traced) scene.occluded(rays, occluded);
     Rgb reflected(0.0f);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const bool is_hidden =
-            settings.occlusion == Occlusion::bent_cone ? !contains(bent_cone, rays[i].direction) : occluded[i] != 0;
-        if (!is_hidden) reflected += weights[i];
-    }
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!occluded[i] && (settings.occlusion != Occlusion::bent_cone || contains(bent_cone, rays[i].direction)))
+            reflected += weights[i];
     return scene.world() * reflected / static_cast<float>(count);
 }
 

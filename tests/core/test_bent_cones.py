@@ -6,7 +6,7 @@ import pivot_core.bsdf as bsdf
 import pivot_core.distributions as pd
 import pivot_core.tables as tables
 import pytest
-from scenes import add_plane, add_sphere, place, set_camera
+from scenes import add_plane, add_sphere, place, render, set_camera
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -177,3 +177,30 @@ def test_specular_occlusion_beats_separable_ones() -> None:
 def stratified(count: int) -> np.ndarray:
     i = np.arange(count) + 0.5
     return np.stack([i / count, (i * 0.6180339887) % 1], -1)
+
+
+def test_rendered_occlusion() -> None:
+    """On the floor of a well: by 'NONE' nothing hides a light, and 'BENT_CONE' leaves its share of that, per lobe."""
+    eye = (0.0, -0.5, 6.0)
+    flat = {"integrator": "ANALYTIC", "samples": 1, "filter_width_px": 0.0}
+    mirror = {"alpha": 0.6, "conductor_f0": (1, 1, 1), "conductor_f90": (1, 1, 1)}
+    for lobe, material in enumerate(({"diffuse": (0.8, 0.8, 0.8)}, mirror)):
+        scene, chalk = new_scene(**material)
+        scene.add_instances("floor", add_grid(scene, 20), place(), [chalk])
+        light = pivot_core.SphereLight((3, 0, 2.5), 1.0, (50, 50, 50))
+        scene.add_light("lamp", light)
+        set_camera(scene, eye, size=(9, 9), half_width=0.08)
+        unoccluded = render(scene, **flat)[..., 0]
+        wall = scene.add_instances("wall", add_wall(scene, 0.8), place(), [chalk])
+        towards = render(scene, "Position", **flat).reshape(-1, 3) - eye
+        towards /= np.linalg.norm(towards, axis=-1, keepdims=True)
+        share = scene.seen_shares(np.tile(eye, (81, 1)), towards, light)[lobe].reshape(9, 9)
+        assert share.min() < 0.3
+        assert share.max() > 0.7
+        np.testing.assert_allclose(render(scene, **flat, occlusion="NONE")[..., 0], unoccluded, rtol=1e-5)
+        bent = render(scene, **flat, occlusion="BENT_CONE")[..., 0]
+        np.testing.assert_allclose(bent, share * unoccluded, rtol=1e-3, atol=1e-4)
+        traced = render(scene, **flat)[..., 0]
+        assert np.abs(bent - traced).mean() < 0.3 * np.abs(unoccluded - traced).mean()
+        scene.remove_instance(wall)
+        np.testing.assert_allclose(render(scene, **flat, occlusion="BENT_CONE")[..., 0], unoccluded, rtol=1e-3)
