@@ -22,6 +22,8 @@ def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
     command = [COMMANDS[0], *screen, COMMANDS[1], *blender, *script]
     done = subprocess.run(command, env=environment(tmp_path), capture_output=True, text=True, timeout=150, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    _, red, green, blue, red_again, analytic, *_ = json.loads((tmp_path / "result.json").read_text())
-    np.testing.assert_array_equal(np.round([red, green, blue, red_again, analytic]), [*np.eye(3), *[(1, 0, 0)] * 2])
+    _, red, green, blue, red_again, analytic, _, lit, *_ = json.loads((tmp_path / "result.json").read_text())
+    np.testing.assert_array_equal(
+        np.round([red, green, blue, red_again, analytic, lit]), [*np.eye(3), *[(1, 0, 0)] * 2, (0, 1, 0)]
+    )
     assert "Traceback" not in done.stdout + done.stderr

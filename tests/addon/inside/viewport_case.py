@@ -7,6 +7,7 @@ one's behind it, then, the view turned about, the world's blue.
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -58,6 +59,22 @@ def lamp(name: str, colour: tuple[float, float, float, float], z: float) -> Any:
     return made
 
 
+def hide_the_sun(scene: Any) -> None:
+    """A green ground before all, under a sun that is behind a lid, which rays to lights meet and the view does not."""
+    ground = lamp("ground", (0, 1, 0, 1), -1)
+    tree = ground.active_material.node_tree
+    diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = (0, 1, 0, 1)
+    tree.links.new(diffuse.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    lamp("lid", (0, 0, 0, 1), -2).visible_camera = False
+    data = bpy.data.lights.new("sun", "SUN")
+    data.energy = 20
+    sun = bpy.data.objects.new("sun", data)
+    sun.rotation_euler = (math.pi, 0, 0)
+    scene.collection.objects.link(sun)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 0, 1)
+
+
 def steps() -> Iterator[int]:
     """Yields the channel that must then be the only bright one."""
     bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
@@ -88,6 +105,10 @@ def steps() -> Iterator[int]:
     yield 0
     window.scene.pivot.integrator = "ANALYTIC"
     yield 0
+    hide_the_sun(window.scene)
+    yield -1
+    window.scene.pivot.occlusion = "NONE"
+    yield 1
     # Every panel is drawn once; one that fails prints a traceback.
     data = bpy.data.lights.new("light", "POINT")
     light = bpy.data.objects.new("light", data)
