@@ -84,6 +84,22 @@ Batch integrate_ltc(const SurfaceBatch& batch, const Cap<Batch>& cap) {
 
 }  // namespace
 
+void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, const Rgb& radiance,
+                Reflection& reflection) {
+    const Lanes plain = store(integral.sums.plain), schlick = store(integral.sums.schlick),
+                dielectric = store(integral.sums.dielectric), method = store(integral.method);
+    reflection.predicted_error = store(integral.predicted_error);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const Surface& surface = batch.lanes[i]->surface;
+        reflection.method[i] = static_cast<Method>(method[i]);
+        if (!surface.has_glossy()) continue;
+        const LobeFresnel& f = surface.fresnel;
+        reflection.glossy[i] =
+            radiance * (f.schlick_f0 * plain[i] + (f.schlick_f90 - f.schlick_f0) * schlick[i] +
+                        f.dielectric_f0 * plain[i] + (f.dielectric_f90 - f.dielectric_f0) * dielectric[i]);
+    }
+}
+
 CapLightShading::CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings)
     : light_(light), batch_(batch), cap_(local_cap(light, batch)), falloff_varies_(cap_.versine < Batch(0.0f)) {
     if (const auto* spot = std::get_if<SpotLight>(&light)) {
@@ -122,19 +138,7 @@ void CapLightShading::reflect_glossy(const RenderSettings& settings) {
         integral = integrate(
             *exact_, budget, [this](const Vec3b& wi) { return falloff(wi); }, falloff_varies_);
     }
-    const Lanes plain = store(integral.sums.plain), schlick = store(integral.sums.schlick),
-                dielectric = store(integral.sums.dielectric), method = store(integral.method);
-    reflection_.predicted_error = store(integral.predicted_error);
-    const Rgb radiance = radiance_of(light_);
-    for (std::size_t i = 0; i < batch_.count; ++i) {
-        const Surface& surface = batch_.lanes[i]->surface;
-        reflection_.method[i] = static_cast<Method>(method[i]);
-        if (!surface.has_glossy()) continue;
-        const LobeFresnel& f = surface.fresnel;
-        reflection_.glossy[i] =
-            radiance * (f.schlick_f0 * plain[i] + (f.schlick_f90 - f.schlick_f0) * schlick[i] +
-                        f.dielectric_f0 * plain[i] + (f.dielectric_f90 - f.dielectric_f0) * dielectric[i]);
-    }
+    put_glossy(batch_, integral, radiance_of(light_), reflection_);
 }
 
 void CapLightShading::reflect_diffuse() {

@@ -14,6 +14,10 @@ struct Reflection {
     std::array<Method, batch_size> method;
 };
 
+/// Writes the glossy half of a reflection: the lobe's sums under each lane's Fresnel curve.
+void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, const Rgb& radiance,
+                Reflection& reflection);
+
 /// The share of a light that is seen, so far.
 struct VisibleShare {
     float seen = 0.0f, all = 0.0f;

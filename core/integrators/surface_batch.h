@@ -27,10 +27,15 @@ struct SurfaceBatch {
 
 /// What a function of each point gives, lane by lane.
 template <class Value>
-Batch gather(const SurfaceBatch& batch, const Value& value) {
+Lanes gather_lanes(const SurfaceBatch& batch, const Value& value) {
     Lanes lanes;
     for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = value(*batch.lanes[i]);
-    return load(lanes);
+    return lanes;
+}
+
+template <class Value>
+Batch gather(const SurfaceBatch& batch, const Value& value) {
+    return load(gather_lanes(batch, value));
 }
 
 template <class Value>
