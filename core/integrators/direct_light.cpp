@@ -15,6 +15,20 @@ Ray shadow_ray(const SurfacePoint& point, const LightPoint& place) {
     return {point.ray_origin(place.wi), place.wi, 0.0f, place.distance_m * (1.0f - 1e-5f)};
 }
 
+/// What a light sample adds if its ray is free.
+struct LightCandidate {
+    Rgb radiance{0.0f};  ///< 0: there is no ray to trace
+    Ray ray;
+    bool shares_with_bsdf = false;  ///< whether BSDF samples must be traced for this light
+};
+
+/// A vertex's light sample: of which light, chosen how often, as which of the vertex' samples. Never: no sample.
+struct LightPick {
+    std::size_t light;
+    float expected_samples;
+    std::size_t place;
+};
+
 /// Rays that wait for each other, and what each adds where.
 class ShadowQueue {
    public:
@@ -83,77 +97,13 @@ struct VertexLanes {
     }
 };
 
-/// The cap of a light as each lane sees it; nothing for an area light.
-std::optional<Cap<Batch>> cap_of(const Light& light, const VertexLanes& lanes) {
-    const auto broadcast = [](const Vec3f& v) { return Vec3b(Batch(v.x), Batch(v.y), Batch(v.z)); };
-    if (const auto* sun = std::get_if<SunLight>(&light)) {
-        return Cap<Batch>{broadcast(sun->cap.axis), Batch(sun->cap.versine)};
-    }
-    const auto* spot = std::get_if<SpotLight>(&light);
-    const SphereLight* sphere = spot ? &spot->sphere : std::get_if<SphereLight>(&light);
-    if (!sphere) return std::nullopt;
-    return cap_of_sphere(broadcast(sphere->center) - lanes.position, Batch(sphere->radius_m));
-}
-
-/// A sample of one light by each lane; lanes that the closed forms leave out are sampled one by one.
-void sample_light_at_lanes(const Scene& scene, const VertexLanes& lanes, std::size_t light_index, std::size_t first,
-                           ShadowQueue& queue, std::span<std::uint8_t> shares) {
-    const Light& light = scene.lights()[light_index];
-    const auto cap = cap_of(light, lanes);
-    const auto sample_alone = [&](std::size_t lane) {
-        const LightCandidate candidate =
-            sample_light_at(scene, LightSampling::joint, lanes.vertices[lane], light_index, 1.0f);
-        shares[first + lane] |= candidate.shares_with_bsdf;
-        queue.push(first + lane, candidate);
-    };
-    if (!cap) {
-        for (std::size_t lane = 0; lane < lanes.vertices.size(); ++lane) sample_alone(lane);
-        return;
-    }
-    Lanes u_x, u_y;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const Vertex& v = lanes.vertices[std::min(i, lanes.vertices.size() - 1)];
-        const Vec2f u = v.sampler.point(v.dimensions.light_place(light_index));
-        u_x[i] = u.x, u_y[i] = u.y;
-    }
-    const Cap<Batch> cap_local{lanes.frame.to_local(cap->axis), cap->versine};
-    const JointSample<Batch> s = sample_jointly(lanes.surface, cap_local, {load(u_x), load(u_y)});
-    const Vec3b wi = lanes.frame.to_world(s.wi_local);
-    const Lanes wi_x = store(wi.x), wi_y = store(wi.y), wi_z = store(wi.z);
-    const Lanes cos_oh = store(dot(lanes.surface.wo_local, normalize(lanes.surface.wo_local + s.wi_local)));
-    const Lanes diffuse = store(s.diffuse), glossy = store(s.glossy);
-    const Lanes axis_x = store(cap->axis.x), axis_y = store(cap->axis.y), axis_z = store(cap->axis.z);
-    const Lanes versine = store(cap->versine);
-    const Lanes valid = store(select(s.valid, Batch(1.0f), Batch(0.0f)));
-    for (std::size_t lane = 0; lane < lanes.vertices.size(); ++lane) {
-        const Vertex& v = lanes.vertices[lane];
-        if (valid[lane] == 0.0f) {
-            sample_alone(lane);
-            continue;
-        }
-        const Vec3f direction(wi_x[lane], wi_y[lane], wi_z[lane]);
-        if (!v.point.faces(direction)) continue;
-        Rgb reflected = v.surface.diffuse * diffuse[lane];
-        if (glossy[lane] > 0.0f) reflected += v.surface.fresnel.at(cos_oh[lane]) * glossy[lane];
-        const Cap<float> lane_cap{{axis_x[lane], axis_y[lane], axis_z[lane]}, versine[lane]};
-        const LightPoint place = light_point_in_cap(light, lane_cap, v.point.position, direction);
-        queue.push(first + lane, {.radiance = reflected * place.radiance, .ray = shadow_ray(v.point, place)});
-    }
-}
-
-}  // namespace
-
-bool shares_with_bsdf(const Vertex& vertex, const LightSampler& light, LightSampling strategy) {
-    return vertex.samples_all_lights ? light.shares_with_bsdf() : strategy != LightSampling::light;
-}
-
-LightCandidate sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex, std::size_t index,
-                               float probability) {
-    const LightSampler light(scene.lights()[index], vertex.point, vertex.surface, strategy);
-    LightCandidate candidate{.ray = {}, .shares_with_bsdf = shares_with_bsdf(vertex, light, strategy)};
-    const auto place = light.sample(vertex.sampler.point(vertex.dimensions.light_place(index)));
+LightCandidate sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex,
+                               const LightPick& pick) {
+    const LightSampler light(scene.lights()[pick.light], vertex.point, vertex.surface, strategy);
+    LightCandidate candidate{.ray = {}, .shares_with_bsdf = light.shares_with_bsdf()};
+    const auto place = light.sample(vertex.sampler.point(vertex.dimensions.light_place(pick.place)));
     if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return candidate;
-    const float pdf = probability * place->pdf_omega;
+    const float pdf = pick.expected_samples * place->pdf_omega;
     const Vec3f wi_local = vertex.point.frame.to_local(place->wi);
     const float weight = candidate.shares_with_bsdf ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
     candidate.radiance = weight * eval(vertex.surface, wi_local) * place->radiance / pdf;
@@ -161,23 +111,99 @@ LightCandidate sample_light_at(const Scene& scene, LightSampling strategy, const
     return candidate;
 }
 
-void add_all_lights(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
-                    std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
-    ShadowQueue queue;
-    const std::size_t light_count = scene.lights().size();
-    if (strategy == LightSampling::joint) {
-        for (std::size_t first = 0; first < vertices.size(); first += batch_size) {
-            const VertexLanes lanes(vertices.subspan(first, std::min(batch_size, vertices.size() - first)));
-            for (std::size_t light = 0; light < light_count; ++light) {
-                sample_light_at_lanes(scene, lanes, light, first, queue, shares);
-            }
+/// A joint sample by each lane, of its own light; lanes that the closed forms leave out are sampled one by one.
+void sample_lanes(const Scene& scene, const VertexLanes& lanes, std::span<const LightPick> picks, std::size_t first,
+                  ShadowQueue& queue, std::span<std::uint8_t> shares) {
+    Lanes u_x, u_y, axis_x, axis_y, axis_z, versine;
+    std::array<std::optional<Cap<float>>, batch_size> caps;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const std::size_t lane = std::min(i, lanes.vertices.size() - 1);
+        const Vertex& v = lanes.vertices[lane];
+        const LightPick& pick = picks[lane];
+        // Of an area light the lane computes what nobody reads.
+        caps[i] = cap_from(scene.lights()[pick.light], v.point.position);
+        const Cap<float> cap = caps[i].value_or(Cap<float>{v.point.frame.z, 0.5f});
+        const Vec3f axis_local = v.point.frame.to_local(cap.axis);
+        axis_x[i] = axis_local.x, axis_y[i] = axis_local.y, axis_z[i] = axis_local.z, versine[i] = cap.versine;
+        const Vec2f u = v.sampler.point(v.dimensions.light_place(pick.place));
+        u_x[i] = u.x, u_y[i] = u.y;
+    }
+    const Cap<Batch> cap_local{{load(axis_x), load(axis_y), load(axis_z)}, load(versine)};
+    const JointSample<Batch> s = sample_jointly(lanes.surface, cap_local, {load(u_x), load(u_y)});
+    const Lanes wi_x = store(s.wi_local.x), wi_y = store(s.wi_local.y), wi_z = store(s.wi_local.z);
+    const Lanes cos_oh = store(dot(lanes.surface.wo_local, normalize(lanes.surface.wo_local + s.wi_local)));
+    const Lanes diffuse = store(s.diffuse), glossy = store(s.glossy);
+    const Lanes valid = store(select(s.valid, Batch(1.0f), Batch(0.0f)));
+    for (std::size_t lane = 0; lane < lanes.vertices.size(); ++lane) {
+        const Vertex& v = lanes.vertices[lane];
+        const LightPick& pick = picks[lane];
+        if (!(pick.expected_samples > 0.0f)) continue;
+        if (!caps[lane] || valid[lane] == 0.0f) {
+            const LightCandidate candidate = sample_light_at(scene, LightSampling::joint, v, pick);
+            shares[first + lane] |= candidate.shares_with_bsdf;
+            queue.push(first + lane, candidate);
+            continue;
         }
-    } else {
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            for (std::size_t light = 0; light < light_count; ++light) {
-                const LightCandidate candidate = sample_light_at(scene, strategy, vertices[i], light, 1.0f);
-                shares[i] |= candidate.shares_with_bsdf;
-                queue.push(i, candidate);
+        const Vec3f wi = v.point.frame.to_world({wi_x[lane], wi_y[lane], wi_z[lane]});
+        if (!v.point.faces(wi)) continue;
+        Rgb reflected = v.surface.diffuse * diffuse[lane];
+        if (glossy[lane] > 0.0f) reflected += v.surface.fresnel.at(cos_oh[lane]) * glossy[lane];
+        const LightPoint place = light_point_in_cap(scene.lights()[pick.light], *caps[lane], v.point.position, wi);
+        queue.push(first + lane,
+                   {.radiance = reflected * place.radiance / pick.expected_samples, .ray = shadow_ray(v.point, place)});
+    }
+}
+
+/// The lights that a vertex samples, into picks; how many.
+std::size_t pick_lights(const Scene& scene, const Vertex& vertex, std::span<LightPick> picks) {
+    if (vertex.light_samples == scene.lights().size()) {
+        for (std::size_t i = 0; i < vertex.light_samples; ++i) picks[i] = {i, 1.0f, i};
+        return vertex.light_samples;
+    }
+    std::array<LightChoice, max_light_samples> choices;
+    const std::size_t count = choose_lights(scene.light_tree(), vertex.point, vertex.surface,
+                                            vertex.sampler.number(vertex.dimensions.light_choice()),
+                                            std::span(choices).first(vertex.light_samples));
+    const auto samples = static_cast<float>(vertex.light_samples);
+    for (std::size_t i = 0; i < count; ++i) picks[i] = {choices[i].light, samples * choices[i].probability, i};
+    return count;
+}
+
+}  // namespace
+
+float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t light) {
+    if (vertex.light_samples == scene.lights().size()) return 1.0f;
+    return static_cast<float>(vertex.light_samples) *
+           choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
+}
+
+void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                      std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
+    ShadowQueue queue;
+    for (std::size_t first = 0; first < vertices.size(); first += batch_size) {
+        const auto group = vertices.subspan(first, std::min(batch_size, vertices.size() - first));
+        std::array<std::array<LightPick, max_light_samples>, batch_size> picks;
+        std::array<std::size_t, batch_size> counts{};
+        for (std::size_t lane = 0; lane < group.size(); ++lane) {
+            counts[lane] = pick_lights(scene, group[lane], picks[lane]);
+        }
+        if (strategy == LightSampling::joint) {
+            const VertexLanes lanes(group);
+            const std::size_t rounds = *std::max_element(counts.begin(), counts.end());
+            for (std::size_t k = 0; k < rounds; ++k) {
+                std::array<LightPick, batch_size> round;
+                for (std::size_t lane = 0; lane < group.size(); ++lane) {
+                    round[lane] = k < counts[lane] ? picks[lane][k] : LightPick{0, 0.0f, k};
+                }
+                sample_lanes(scene, lanes, round, first, queue, shares);
+            }
+            continue;
+        }
+        for (std::size_t lane = 0; lane < group.size(); ++lane) {
+            for (std::size_t k = 0; k < counts[lane]; ++k) {
+                const LightCandidate candidate = sample_light_at(scene, strategy, group[lane], picks[lane][k]);
+                shares[first + lane] |= candidate.shares_with_bsdf;
+                queue.push(first + lane, candidate);
             }
         }
     }

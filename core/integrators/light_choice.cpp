@@ -1,55 +1,145 @@
 #include "core/integrators/light_choice.h"
 
+#include <numeric>
+
+#include "core/simd/batch.h"
+// clang-format off: templates that follow must see batches
+#include "core/integrators/joint_sampling.h"
+// clang-format on
+
 namespace pivot {
 namespace {
 
-/// An upper estimate: above 0 for every light that reaches the point from above its horizon.
-float irradiance_estimate(const Light& light, const SurfacePoint& point) {
-    if (const auto cap = cap_from(light, point.position)) {
-        const float sin_half_angle = std::sqrt(sin2_half_angle(*cap));
-        const float cos_nearest = dot(cap->axis, point.frame.z) + (cap->versine > 1.0f ? 1.0f : sin_half_angle);
-        if (cos_nearest <= 0.0f) return 0.0f;
-        const LightPoint center = light_point_in_cap(light, *cap, point.position, cap->axis);
-        // A spot's falloff differs over its cap: where its axis is dark its rim may be lit.
-        const auto* spot = std::get_if<SpotLight>(&light);
-        const Rgb radiance = spot ? max(center.radiance, 0.01f * spot->sphere.radiance) : center.radiance;
-        return max_component(radiance) * solid_angle(*cap) * std::min(cos_nearest, 1.0f);
+Batch load_at(const LightProxies::Values& values, std::size_t first) { return Batch::load_unaligned(&values[first]); }
+
+struct Pick {
+    float u;
+    LightChoice choice;
+};
+
+/// Which child u falls into, and what is left of u within it.
+std::size_t split(const LightProxies::Values& weights, std::size_t count, float total, float& u, float& probability) {
+    float left = u * total;
+    std::size_t chosen = count;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(weights[i] > 0.0f)) continue;
+        chosen = i;
+        if (left < weights[i]) break;
+        left -= weights[i];
     }
-    const auto& area = std::get<AreaLight>(light);
-    const Vec3f d = point.position - area.center;
-    const float reach = length(area.half_u) + length(area.half_v);
-    const float along = dot(d, area.normal);
-    if (along <= 0.0f) return 0.0f;
-    const float distance = length(d);
-    const float cos_light = along / distance;
-    const float cos_surface = std::min(1.0f, (reach - dot(d, point.frame.z)) / distance);
-    if (cos_surface <= 0.0f) return 0.0f;
-    const float angle = std::min(area.area_m2 * cos_light / sqr(distance), 2.0f * pi<float>);
-    return max_component(area.radiance) * angle * cos_surface;
+    u = std::min(left / weights[chosen], 1.0f - 0x1p-24f);
+    probability *= weights[chosen] / total;
+    return chosen;
 }
+
+/// Sends picks, whose u ascend, down from a node; a pick that finds nothing keeps probability 0.
+void descend(const LightTree& tree, std::int32_t index, const SurfacePoint& point, const Surface& surface,
+             std::span<Pick> picks) {
+    const LightTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
+    const LightProxies::Values weights = light_importance(point, surface, node.proxies);
+    const float total = std::accumulate(weights.begin(), weights.end(), 0.0f);
+    if (!(total > 0.0f)) {
+        for (Pick& pick : picks) pick.choice.probability = 0.0f;
+        return;
+    }
+    for (std::size_t first = 0; first < picks.size();) {
+        const std::size_t child = split(weights, node.count, total, picks[first].u, picks[first].choice.probability);
+        std::size_t end = first + 1;
+        while (end < picks.size()) {
+            Pick next = picks[end];
+            if (split(weights, node.count, total, next.u, next.choice.probability) != child) break;
+            picks[end++] = next;
+        }
+        const std::span<Pick> together = picks.subspan(first, end - first);
+        if (node.child[child] >= 0) {
+            descend(tree, node.child[child], point, surface, together);
+        } else {
+            for (Pick& pick : together) pick.choice.light = static_cast<std::size_t>(~node.child[child]);
+        }
+        first = end;
+    }
+}
+
+float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
 
 }  // namespace
 
-std::optional<LightChoice> choose_light(const std::vector<Light>& lights, const SurfacePoint& point, float u) {
-    float total = 0.0f;
-    for (const Light& light : lights) total += irradiance_estimate(light, point);
-    if (!(total > 0.0f)) return std::nullopt;
-    float left = u * total;
-    std::optional<LightChoice> choice;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const float estimate = irradiance_estimate(lights[i], point);
-        if (estimate <= 0.0f) continue;
-        choice = LightChoice{i, estimate / total};
-        left -= estimate;
-        if (left < 0.0f) break;
+LightProxies::Values light_importance(const SurfacePoint& point, const Surface& surface, const LightProxies& proxies) {
+    const auto broadcast = [](const Vec3f& v) { return Vec3b(Batch(v.x), Batch(v.y), Batch(v.z)); };
+    const Vec3b position = broadcast(point.position), wo = broadcast(surface.wo_local);
+    const Frame<Batch> frame{broadcast(point.frame.x), broadcast(point.frame.y), broadcast(point.frame.z)};
+    const Batch alpha(surface.alpha), diffuse(mean_component(surface.diffuse));
+    const Batch f0(mean_component(surface.fresnel.schlick_f0 + surface.fresnel.dielectric_f0));
+    const Batch f90(mean_component(surface.fresnel.schlick_f90 + surface.fresnel.dielectric_f90));
+    const Batch zero(0.0f), one(1.0f);
+
+    LightProxies::Values importance;
+    for (std::size_t first = 0; first < light_tree_width; first += batch_size) {
+        const Vec3b center(load_at(proxies.center_x, first), load_at(proxies.center_y, first),
+                           load_at(proxies.center_z, first));
+        const Vec3b normal(load_at(proxies.normal_x, first), load_at(proxies.normal_y, first),
+                           load_at(proxies.normal_z, first));
+        const Batch sun_versine = load_at(proxies.sun_versine, first);
+        const auto is_sun = sun_versine > zero;
+        const Vec3b to_center = center - position;
+        Cap<Batch> cap = cap_of_sphere(to_center, load_at(proxies.radius_m, first));
+        cap.axis = select(is_sun, center, cap.axis);
+        cap.versine = select(is_sun, sun_versine, cap.versine);
+
+        // A flat light is seen at its slant, a spot within its cone.
+        const Batch cos_light = -dot(to_center, normal) / max(length(to_center), tiny<Batch>);
+        const Batch cos_cone = load_at(proxies.cos_cone, first);
+        const Batch lit = max((cos_light - cos_cone) / (one - cos_cone), load_at(proxies.least_lit, first));
+
+        // Around the point, or nearly: all that is above it.
+        const auto large = cap.versine > one;
+        Cap<Batch> local{frame.to_local(cap.axis), cap.versine};
+        local.axis = select(large, Vec3b(zero, zero, one), local.axis);
+        local.versine = select(large, one, local.versine);
+        const Batch sin2 = sin2_half_angle(local), sine = sqrt(sin2);
+        const Batch cos_surface = min(max(local.axis.z, Batch(0.5f) * (local.axis.z + sine)), one);
+        Batch reflected = diffuse * cos_surface * sin2;
+        if (surface.has_glossy()) {
+            const GgxCap<Batch> g = ggx_cap(wo, local, alpha, alpha);
+            const Batch fresnel = lerp(f0, f90, schlick_weight(g.cos_half));
+            // Across the horizon the closed form is not known: as if the lobe lay all in the cap.
+            reflected += fresnel * select(g.valid, min(g.integral, one), min(one, local.versine));
+        }
+        reflected = select(local.axis.z + sine > zero, reflected, zero);
+        const Batch result = reflected * lit * load_at(proxies.radiance, first);
+        result.store_unaligned(&importance[first]);
     }
-    return choice;
+    return importance;
 }
 
-float choice_probability(const std::vector<Light>& lights, const SurfacePoint& point, std::size_t light) {
-    float total = 0.0f;
-    for (const Light& other : lights) total += irradiance_estimate(other, point);
-    return total > 0.0f ? irradiance_estimate(lights[light], point) / total : 0.0f;
+std::size_t choose_lights(const LightTree& tree, const SurfacePoint& point, const Surface& surface, float u,
+                          std::span<LightChoice> choices) {
+    if (tree.nodes().empty()) return 0;
+    constexpr std::size_t most = 16;
+    std::array<Pick, most> picks;
+    const auto n = static_cast<float>(choices.size());
+    for (std::size_t i = 0; i < choices.size(); ++i) picks[i] = {(static_cast<float>(i) + u) / n, {0, 1.0f}};
+    descend(tree, 0, point, surface, std::span(picks).first(choices.size()));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        if (picks[i].choice.probability > 0.0f) choices[count++] = picks[i].choice;
+    }
+    return count;
+}
+
+float choice_probability(const LightTree& tree, const SurfacePoint& point, const Surface& surface, std::size_t light) {
+    auto [index, place] = tree.leaf(light);
+    float probability = 1.0f;
+    while (index >= 0) {
+        const LightTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
+        const LightProxies::Values weights = light_importance(point, surface, node.proxies);
+        const float total = std::accumulate(weights.begin(), weights.end(), 0.0f);
+        if (!(weights[place] > 0.0f)) return 0.0f;
+        probability *= weights[place] / total;
+        index = node.parent;
+        place = node.place_in_parent;
+    }
+    return probability;
 }
 
 }  // namespace pivot

@@ -1,23 +1,27 @@
-// Which light a path's later vertices sample: one, in proportion to the irradiance it could give if nothing were in its
-// way. (The first vertex samples them all: there each light's noise is seen.)
+// Which lights a path's vertex samples: all where they are few, else some of them, chosen down the light tree by what
+// the surface reflects of each child in closed form: a glossy surface finds the light it mirrors.
 #pragma once
 
-#include <vector>
-
-#include "core/lights/light.h"
+#include "core/lights/light_tree.h"
 #include "core/scene/surface_point.h"
 
 namespace pivot {
+
+/// How much of each of eight lights a surface reflects if nothing is in the way, nearly: above 0 for each that reaches
+/// it. Relative to each other only.
+LightProxies::Values light_importance(const SurfacePoint& point, const Surface& surface, const LightProxies& proxies);
 
 struct LightChoice {
     std::size_t light;
     float probability;
 };
 
-/// u in [0, 1). Nothing when no light can reach the point.
-std::optional<LightChoice> choose_light(const std::vector<Light>& lights, const SurfacePoint& point, float u);
+/// choices.size() lights, each by the probability it says; u in [0, 1) places them all, evenly. Those that find no
+/// light that reaches the point are left out: returns how many were chosen, at the front.
+std::size_t choose_lights(const LightTree& tree, const SurfacePoint& point, const Surface& surface, float u,
+                          std::span<LightChoice> choices);
 
-/// With which probability choose_light takes this light.
-float choice_probability(const std::vector<Light>& lights, const SurfacePoint& point, std::size_t light);
+/// With which probability each choice takes this light.
+float choice_probability(const LightTree& tree, const SurfacePoint& point, const Surface& surface, std::size_t light);
 
 }  // namespace pivot

@@ -1,7 +1,6 @@
 #include "core/integrators/monte_carlo.h"
 
 #include "core/integrators/direct_light.h"
-#include "core/integrators/light_choice.h"
 
 namespace pivot {
 namespace {
@@ -19,21 +18,12 @@ Rgb lights_met(const Scene& scene, LightSampling strategy, const Vertex& vertex,
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
         const LightSampler light(lights[i], vertex.point, vertex.surface, strategy);
-        if (!shares_with_bsdf(vertex, light, strategy)) continue;
-        const float probability = vertex.samples_all_lights ? 1.0f : choice_probability(lights, vertex.point, i);
-        radiance += place->radiance * balance(bsdf_pdf_omega, probability * light.pdf_omega(*place));
+        if (!light.shares_with_bsdf()) continue;
+        const float light_pdf_omega = light.pdf_omega(*place);  // 0: BSDF samples are alone
+        const float expected = light_pdf_omega > 0.0f ? expected_samples(scene, vertex, i) : 0.0f;
+        radiance += place->radiance * balance(bsdf_pdf_omega, expected * light_pdf_omega);
     }
     return radiance;
-}
-
-/// One light for all, as seen from a vertex behind the first. Whether BSDF samples must be traced for some light.
-bool add_one_light(const Scene& scene, LightSampling strategy, const Vertex& vertex, Rgb& radiance) {
-    const auto choice =
-        choose_light(scene.lights(), vertex.point, vertex.sampler.number(vertex.dimensions.light_choice()));
-    if (!choice) return false;
-    const LightCandidate light = sample_light_at(scene, strategy, vertex, choice->light, choice->probability);
-    if (max_component(light.radiance) > 0.0f && !scene.occluded(light.ray)) radiance += light.radiance;
-    return light.shares_with_bsdf;
 }
 
 /// The path from its first vertex on, whose own light is in. shares: whether the first BSDF sample counts lights.
@@ -71,10 +61,12 @@ void follow_path(const Scene& scene, const RenderSettings& settings, Vertex vert
         sample.radiance += throughput * vertex.point.material->emission;
         if (bounce == settings.max_bounces) return;
         vertex.surface = make_surface(*vertex.point.material, vertex.point.wo_local);
-        vertex.dimensions = Dimensions(bounce + 1, scene.lights().size());
-        vertex.samples_all_lights = false;
+        vertex.dimensions = Dimensions(bounce + 1);
+        vertex.light_samples = std::min<std::size_t>(scene.lights().size(), 1);
         Rgb direct(0.0f);
-        shares = add_one_light(scene, strategy, vertex, direct);
+        std::uint8_t vertex_shares = 0;
+        add_direct_light(scene, strategy, {&vertex, 1}, {&direct, 1}, {&vertex_shares, 1});
+        shares = vertex_shares != 0;
         sample.radiance += throughput * direct;
     }
 }
@@ -106,12 +98,12 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
         vertices.push_back({.sampler = samplers[i],
                             .point = point,
                             .surface = surface,
-                            .dimensions = Dimensions(0, scene.lights().size()),
-                            .samples_all_lights = true});
+                            .dimensions = Dimensions(0),
+                            .light_samples = std::min(scene.lights().size(), max_light_samples)});
     }
     std::vector<Rgb> direct(vertices.size(), Rgb(0.0f));
     std::vector<std::uint8_t> shares(vertices.size(), 0);
-    add_all_lights(scene, settings.light_sampling, vertices, direct, shares);
+    add_direct_light(scene, settings.light_sampling, vertices, direct, shares);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         Sample& sample = samples[places[i]];
         sample.radiance += direct[i];

@@ -179,6 +179,7 @@ void Scene::commit() {
     for (const auto& light : lights_) {
         if (light) active_lights_.push_back(light->light);
     }
+    light_tree_ = LightTree(active_lights_);
     has_unsampled_light_ = max_component(world_) > 0.0f;
     for (const auto& instance : instances_) {
         if (!instance) continue;

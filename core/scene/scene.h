@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lights/light.h"
+#include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
 #include "core/scene/surface_point.h"
@@ -54,6 +54,7 @@ class Scene {
     const Rgb& world() const { return world_; }
     /// Every light there is, in the order they were added.
     const std::vector<Light>& lights() const { return active_lights_; }
+    const LightTree& light_tree() const { return light_tree_; }
     /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
     bool has_unsampled_light() const { return has_unsampled_light_; }
     const std::string& instance_name(std::uint32_t id) const { return instances_[id]->name; }
@@ -82,6 +83,7 @@ class Scene {
     std::vector<std::optional<Instance>> instances_;
     std::vector<std::optional<NamedLight>> lights_;
     std::vector<Light> active_lights_;
+    LightTree light_tree_;
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     Rgb world_{0.0f};
     Camera camera_;
