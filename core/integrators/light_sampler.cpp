@@ -1,5 +1,6 @@
 #include "core/integrators/light_sampler.h"
 
+#include "core/integrators/area_sampling.h"
 #include "core/tables/ggx_sptd.h"
 
 namespace pivot {
@@ -15,10 +16,15 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
                            LightSampling strategy)
     : light_(light),
       point_(point),
+      surface_(surface),
       cap_(cap_from(light, point.position)),
       shares_with_bsdf_(strategy != LightSampling::light) {
     if (strategy == LightSampling::bsdf) return;
     diffuse_technique_ = glossy_technique_ = Technique::uniform;
+    if (!cap_ && strategy == LightSampling::joint) {
+        joint_area_ = &std::get<AreaLight>(light);
+        shares_with_bsdf_ = !area_patches_suffice(*joint_area_, point, surface);
+    }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
     if (strategy != LightSampling::joint && strategy != LightSampling::sptd) return;
@@ -92,6 +98,7 @@ float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const
 
 std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
+    if (joint_area_) return sample_area_jointly(*joint_area_, point_, surface_, u);
     if (!cap_) return sample_light(light_, point_.position, u);
     // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
     const bool glossy = u.x < glossy_probability_;
@@ -103,6 +110,7 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
 }
 
 float LightSampler::pdf_omega(const LightPoint& place) const {
+    if (joint_area_) return pdf_omega_area_jointly(*joint_area_, point_, surface_, place);
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);
     return lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_);

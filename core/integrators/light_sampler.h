@@ -12,7 +12,8 @@
 //   light    uniform in the cap   uniform in the cap                   no
 //   bsdf     -                    -                                    BSDF samples alone
 //
-// An area light is drawn uniformly by area, and shares with BSDF samples in every strategy but light.
+// An area light is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF
+// samples where these are larger than the lobe; else uniformly by area, sharing in every strategy but light.
 #pragma once
 
 #include "core/distributions/elliptic_cone.h"
@@ -45,7 +46,9 @@ class LightSampler {
 
     const Light& light_;
     const SurfacePoint& point_;
-    std::optional<Cap<float>> cap_;  ///< world space
+    const Surface& surface_;
+    const AreaLight* joint_area_ = nullptr;  ///< the light, where its parts are chosen among
+    std::optional<Cap<float>> cap_;          ///< world space
     Cap<float> cap_local_{};
     Technique diffuse_technique_ = Technique::none;
     Technique glossy_technique_ = Technique::none;

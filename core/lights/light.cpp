@@ -56,13 +56,9 @@ std::optional<LightPoint> intersect_area(const AreaLight& light, const Vec3f& po
     const float cos_light = -dot(wi, light.normal);
     if (cos_light <= 0.0f) return std::nullopt;
     const float distance_m = dot(point - light.center, light.normal) / cos_light;
-    const Vec3f place = point + distance_m * wi - light.center;
-    // Coordinates along half_u and half_v, which need not be perpendicular.
-    const Vec3f across_u = cross(light.half_v, light.normal);
-    const Vec3f across_v = cross(light.normal, light.half_u);
-    const float x = dot(place, across_u) / dot(light.half_u, across_u);
-    const float y = dot(place, across_v) / dot(light.half_v, across_v);
-    if (light.ellipse ? x * x + y * y > 1.0f : std::max(std::abs(x), std::abs(y)) > 1.0f) return std::nullopt;
+    const Vec2f at = area_coordinates(light, point + distance_m * wi);
+    if (light.ellipse ? at.x * at.x + at.y * at.y > 1.0f : std::max(std::abs(at.x), std::abs(at.y)) > 1.0f)
+        return std::nullopt;
     return area_light_point(light, wi, distance_m);
 }
 
@@ -102,6 +98,14 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
     require(quarter_area > 0.0f, "half_u and half_v must span an area");
     return {center,  half_u,  half_v, normal / quarter_area, quarter_area * (ellipse ? pi<float> : 4.0f),
             ellipse, radiance};
+}
+
+Vec2f area_coordinates(const AreaLight& light, const Vec3f& place) {
+    const Vec3f offset = place - light.center;
+    // half_u and half_v need not be perpendicular.
+    const Vec3f across_u = cross(light.half_v, light.normal);
+    const Vec3f across_v = cross(light.normal, light.half_u);
+    return {dot(offset, across_u) / dot(light.half_u, across_u), dot(offset, across_v) / dot(light.half_v, across_v)};
 }
 
 float spot_falloff(const SpotLight& spot, const Vec3f& wi) {

@@ -53,6 +53,9 @@ SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb&
 AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
                           bool ellipse);
 
+/// A place in the light's plane along half_u and half_v: within [-1, 1]^2 or the unit disk on the light.
+Vec2f area_coordinates(const AreaLight& light, const Vec3f& place);
+
 /// Falloff of a spot, 0..1, towards a point that sees it along wi.
 float spot_falloff(const SpotLight& spot, const Vec3f& wi);
 
