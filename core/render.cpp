@@ -3,6 +3,7 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
+#include <numeric>
 #include <stdexcept>
 
 #include "core/integrators/analytic.h"
@@ -48,7 +49,9 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
     : scene_(std::move(scene)),
       settings_(settings),
       filter_(settings.filter_shape, settings.filter_width_px),
-      film_(scene_->camera().window.width(), scene_->camera().window.height()) {
+      film_(scene_->camera().window.width(), scene_->camera().window.height()),
+      total_pixel_samples_(static_cast<std::uint64_t>(film_.width()) * static_cast<std::uint64_t>(film_.height()) *
+                           settings.samples) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
 
@@ -85,8 +88,7 @@ bool Session::wait(double seconds) {
 }
 
 double Session::progress() const {
-    const double pixels = static_cast<double>(film_.width()) * film_.height();
-    const double of_samples = static_cast<double>(pixel_samples_done_) / (pixels * settings_.samples);
+    const double of_samples = static_cast<double>(pixel_samples_done_) / static_cast<double>(total_pixel_samples_);
     if (!(settings_.time_limit_s > 0.0f)) return of_samples;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_time_;
     return std::clamp(elapsed.count() / static_cast<double>(settings_.time_limit_s), of_samples, 1.0);
@@ -107,13 +109,26 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    for (std::uint32_t done = 0; done < settings_.samples && !should_stop();) {
-        const std::uint32_t pass = std::min({std::max(done, 1u), max_samples_per_pass, settings_.samples - done});
+    const bool adaptive = settings_.adaptive && settings_.integrator == Integrator::monte_carlo;
+    const std::uint32_t pilot_end = adaptive ? pilot_samples(settings_.samples) : settings_.samples;
+    if (adaptive) pilots_.resize(static_cast<std::size_t>(film_.width()) * static_cast<std::size_t>(film_.height()));
+    if (!render_passes(0, pilot_end) || pilot_end == settings_.samples) return;
+    counts_ = sample_counts(pilots_, film_.width(), 0.01f * settings_.error_budget_percent, settings_.samples);
+    pilots_.clear();
+    total_pixel_samples_ = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+    render_passes(pilot_end, *std::max_element(counts_.begin(), counts_.end()));
+    if (!should_stop()) samples_done_ = settings_.samples;
+}
+
+bool Session::render_passes(std::uint32_t first_sample, std::uint32_t last_sample) {
+    for (std::uint32_t done = first_sample; done < last_sample;) {
+        const std::uint32_t pass = std::min({std::max(done, 1u), max_samples_per_pass, last_sample - done});
         render_pass(done, done + pass);
-        if (should_stop()) return;
+        if (should_stop()) return false;
         done += pass;
         samples_done_ = done;
     }
+    return true;
 }
 
 void Session::render_pass(std::uint32_t first_sample, std::uint32_t last_sample) {
@@ -126,62 +141,79 @@ void Session::render_tile(const Tile& tile, std::uint32_t first_sample, std::uin
     film_.load(tile, pixels);
     const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
     std::span<Pixel> left = pixels;
+    std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y, left = left.subspan(width)) {
-        if (should_stop()) return;  // a tile is all or nothing: every pixel of it keeps the same sample count
+        if (should_stop()) return;  // a tile is all or nothing: every pixel of it has all of a pass or none
         const std::span<Pixel> row = left.first(width);
         for (std::size_t i = 0; first_sample == 0 && i < width; ++i)
             see_center(row[i], tile.x0 + static_cast<int>(i), y);
-        add_samples(row, tile.x0, y, first_sample, last_sample);
+        samples_added += add_samples(row, tile.x0, y, first_sample, last_sample);
     }
     film_.store(tile, pixels);
-    pixel_samples_done_ += pixels.size() * (last_sample - first_sample);
+    pixel_samples_done_ += samples_added;
 }
 
-void Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample) {
+std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample,
+                                 std::uint32_t last_sample) {
     const Camera& camera = scene_->camera();
     const bool analytic = settings_.integrator == Integrator::analytic;
-    const int frame_y = camera.window.y0 + y;
-    const std::size_t count = last_sample - first_sample;
-    std::vector<Ray> rays(row.size() * count);
-    std::vector<Sampler> samplers(rays.size());
-    std::vector<Sample> samples(rays.size());
-    // Paths of one pixel side by side, but analytic samples of one index: what they share goes together in a batch.
-    const auto place_of = [&](std::size_t pixel, std::size_t sample) {
-        return analytic ? sample * row.size() + pixel : pixel * count + sample;
+    const std::size_t first_pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x0);
+    const auto end_of = [&](std::size_t pixel) {
+        return counts_.empty() ? last_sample : std::min(last_sample, counts_[first_pixel + pixel]);
     };
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const int frame_x = camera.window.x0 + x0 + static_cast<int>(i);
+    struct PixelSample {
+        std::size_t pixel;
+        std::uint32_t index;
+    };
+    // Paths of one pixel side by side, but analytic samples of one index: what they share goes together in a batch.
+    std::vector<PixelSample> planned;
+    if (analytic) {
+        for (std::uint32_t index = first_sample; index < last_sample; ++index)
+            for (std::size_t i = 0; i < row.size(); ++i) planned.push_back({i, index});
+    } else {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            for (std::uint32_t index = first_sample; index < end_of(i); ++index) planned.push_back({i, index});
+    }
+    const int frame_x0 = camera.window.x0 + x0, frame_y = camera.window.y0 + y;
+    std::vector<Ray> rays;
+    std::vector<Sampler> samplers;
+    for (const auto& [pixel, index] : planned) {
+        const int frame_x = frame_x0 + static_cast<int>(pixel);
         const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
         // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for
         // all.
         const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
-        const std::uint32_t seed = analytic ? 0u : hash(place, settings_.seed);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Sampler sampler(seed, first_sample + static_cast<std::uint32_t>(k));
-            samplers[place_of(i, k)] = sampler;
-            rays[place_of(i, k)] = camera.ray(center + filter_.sample(sampler.point(0)));
-        }
+        samplers.emplace_back(analytic ? 0u : hash(place, settings_.seed), index);
+        rays.push_back(camera.ray(center + filter_.sample(samplers.back().point(0))));
     }
+    std::vector<Sample> samples(rays.size());
     if (analytic) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto first = k * row.size();
-            shade_analytic(*scene_, settings_, std::span(rays).subspan(first, row.size()),
-                           first_sample + static_cast<std::uint32_t>(k), std::span(samples).subspan(first, row.size()));
+        for (std::size_t first = 0; first < rays.size(); first += row.size()) {
+            shade_analytic(*scene_, settings_, std::span(rays).subspan(first, row.size()), planned[first].index,
+                           std::span(samples).subspan(first, row.size()));
         }
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
     }
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const Sample& sample = samples[place_of(i, k)];
-            row[i].count += 1;
-            if (is_finite(sample)) {
-                add(row[i].sum, sample);
-            } else {
-                report_bad_sample(camera.window.x0 + x0 + static_cast<int>(i), frame_y, rays[place_of(i, k)]);
-            }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        Pixel& pixel = row[planned[i].pixel];
+        pixel.count += 1;
+        if (is_finite(samples[i])) {
+            add(pixel.sum, samples[i]);
+        } else {
+            report_bad_sample(frame_x0 + static_cast<int>(planned[i].pixel), frame_y, rays[i]);
         }
     }
+    if (!pilots_.empty() && (last_sample - first_sample) % pilot_block == 0) {
+        for (std::size_t i = 0; i < rays.size(); i += pilot_block) {
+            Rgb block(0.0f);
+            for (std::size_t k = 0; k < pilot_block; ++k) block += samples[i + k].radiance;
+            const float mean = (block.x + block.y + block.z) / (3.0f * pilot_block);
+            if (std::isfinite(mean)) pilots_[first_pixel + planned[i].pixel].add(mean);
+        }
+    }
+    return rays.size();
 }
 
 void Session::see_center(Pixel& pixel, int x, int y) const {

@@ -10,6 +10,7 @@
 
 #include "core/film/film.h"
 #include "core/film/pixel_filter.h"
+#include "core/film/sample_counts.h"
 #include "core/integrators/settings.h"
 #include "core/sampling/sobol.h"
 #include "core/scene/scene.h"
@@ -42,8 +43,10 @@ class Session {
     void run();
     void render_pass(std::uint32_t first_sample, std::uint32_t last_sample);
     void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample);
-    /// Adds the samples to part of row y of the window, from x0 on.
-    void add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample);
+    /// False when it was stopped.
+    bool render_passes(std::uint32_t first_sample, std::uint32_t last_sample);
+    /// Adds the samples to part of row y of the window, from x0 on; how many they were.
+    std::size_t add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample);
     void see_center(Pixel& pixel, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;
@@ -52,6 +55,10 @@ class Session {
     RenderSettings settings_;
     PixelFilter filter_;
     Film film_;
+    // Adaptive sampling: what the pilot found while it lasts, then each pixel's count. Tiles touch their own pixels.
+    std::vector<Pilot> pilots_;
+    std::vector<std::uint32_t> counts_;
+    std::atomic<std::uint64_t> total_pixel_samples_;
     std::chrono::steady_clock::time_point start_time_, deadline_;
     std::atomic<bool> stop_{false};
     std::atomic<std::uint32_t> samples_done_{0};

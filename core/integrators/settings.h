@@ -24,6 +24,7 @@ struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
     std::uint32_t samples = 64;
+    bool adaptive = false;  ///< Monte Carlo: a pixel stops at the error budget, samples is the most it gets
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;      ///< 0: direct light only
     float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show

@@ -44,6 +44,10 @@ class Renderer:
     name: str  # in the worker
     settings: dict[str, Any]
 
+    def counts(self, samples: int) -> tuple[int, int]:
+        """The sample counts whose cost is compared; adaptive sampling has a ceiling and no second count."""
+        return (0, 4 * samples) if "adaptive" in self.settings else (samples // 4, samples)
+
     def renders(self, scene: str) -> bool:
         return self.name == "pivot" or self.name in scenes.SCENES[scene].peers
 
@@ -64,6 +68,7 @@ def find_renderers(blenders: list[str], mitsuba: str) -> list[Renderer]:
         if index == 0 and probe(python, "import pivot_core; print(1)"):
             for label, settings in {
                 "pivot": {},
+                "pivot adaptive": {"adaptive": True, "error_budget_percent": 2.0},
                 "pivot MIS": {"light_sampling": "MIS"},
                 "pivot SPTD": {"light_sampling": "SPTD"},
             }.items():
@@ -121,15 +126,15 @@ def rel_mse(image: NDArray[np.float64], mean: NDArray[np.float64], variance: NDA
 
 def measure(renderer: Renderer, scene: str, arguments: argparse.Namespace) -> dict[str, Any]:
     """A row of the table, of pictures that are there."""
-    samples = arguments.samples
+    low, samples = renderer.counts(arguments.samples)
     few, many = (
-        [load(picture_file(scene, renderer.label, count, seed)) for seed in range(arguments.seeds)]
-        for count in (samples // 4, samples)
+        [load(picture_file(scene, renderer.label, count, seed)) for seed in range(arguments.seeds)] if count else []
+        for count in (low, samples)
     )
     mean, variance = reference(scene, renderer.family, arguments.reference)
     errors = [rel_mse(image, mean, variance) for image, _ in many]
-    cpu_s = [np.median([cpu for _, cpu in images]) for images in (few, many)]
-    cost_s = float(cpu_s[1] - cpu_s[0]) / (1 - 0.25)
+    cpu_s = [np.median([cpu for _, cpu in images]) if images else 0.0 for images in (few, many)]
+    cost_s = float(cpu_s[1] - cpu_s[0]) / (1 - low / samples)
     error = float(np.mean(errors))
     return {
         "scene": scene,
@@ -161,7 +166,7 @@ def write_png(path: Path, image: NDArray[np.uint8]) -> None:
 def write_pictures(renderers: list[Renderer], names: list[str], samples: int) -> None:
     """A row a scene, a column a renderer: one seed of each, sRGB."""
     black = np.zeros((scenes.HEIGHT, scenes.WIDTH, 3))
-    files = [[picture_file(scene, renderer.label, samples, 0) for renderer in renderers] for scene in names]
+    files = [[picture_file(scene, r.label, r.counts(samples)[1], 0) for r in renderers] for scene in names]
     rows = [np.concatenate([load(f)[0][::-1] if f.exists() else black for f in row], 1) for row in files]
     linear = np.clip(np.concatenate(rows, 0), 0, 1)
     srgb = np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
@@ -214,8 +219,9 @@ def main() -> None:
             references = [(scene, renderer.family + "-reference", parts, seed) for seed in seeds]
             pictures = [
                 (scene, renderer.label, samples, seed)
-                for samples in (arguments.samples // 4, arguments.samples)
+                for samples in renderer.counts(arguments.samples)
                 for seed in range(arguments.seeds)
+                if samples
             ]
             chosen = not arguments.only or renderer.label in arguments.only
             missing = [wanted for wanted in references if not picture_file(*wanted).exists()]
