@@ -2,7 +2,7 @@
 
 #include "bindings/register.h"
 #include "bindings/vectorize.h"
-#include "core/shading/ggx_cap_light.h"
+#include "core/shading/ggx_area_light.h"
 #include "core/simd/batch.h"
 
 namespace pivot::bindings {
@@ -36,6 +36,31 @@ struct Gather {
     Vec3b direction() const { return {(*this)(0), (*this)(1), (*this)(2)}; }
 };
 
+GgxLobe<Batch> gather_lobe(const Gather& alpha, const Gather& wo) {
+    return {wo.direction(), max(alpha(0), Batch(min_alpha)), Batch(1.0f), false};
+}
+
+/// integral(gather): of the lanes that gather(input) reads. Returns (value, error, method).
+template <class Integral>
+py::tuple evaluate_batches(const Shape& common, const Integral& integral) {
+    const py::ssize_t count = product(common), step = static_cast<py::ssize_t>(batch_size);
+    py::array_t<float> values(common), errors(common);
+    py::array_t<int> methods(common);
+    for (py::ssize_t first = 0; first < count; first += step) {
+        const LobeIntegral<Batch> lanes = integral([&](const Input<float>& input) {
+            return Gather{input, common, first, count};
+        });
+        const Lanes value = store(lanes.sums.plain), error = store(lanes.predicted_error), method = store(lanes.method);
+        for (py::ssize_t i = first; i < std::min(first + step, count); ++i) {
+            const auto lane = static_cast<size_t>(i - first);
+            values.mutable_data()[i] = value[lane];
+            errors.mutable_data()[i] = error[lane];
+            methods.mutable_data()[i] = static_cast<int>(method[lane]);
+        }
+    }
+    return py::make_tuple(values[py::tuple()], errors[py::tuple()], methods[py::tuple()]);
+}
+
 py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const py::object& cap_axis,
                            const py::object& half_angle, double error_budget) {
     budget_spec.check(&error_budget, 1);
@@ -49,25 +74,34 @@ py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const 
     broadcast(common, axes.leading, "cap_axis");
     broadcast(common, half_angles.leading, "half_angle");
 
-    const py::ssize_t count = product(common);
-    py::array_t<float> values(common), errors(common);
-    py::array_t<int> methods(common);
-    for (py::ssize_t first = 0; first < count; first += static_cast<py::ssize_t>(batch_size)) {
-        const auto gather = [&](const Input<float>& input) { return Gather{input, common, first, count}; };
-        const GgxLobe<Batch> lobe{gather(wos).direction(), max(gather(alphas)(0), Batch(min_alpha)), Batch(1.0f),
-                                  false};
+    const auto cap_integral = [&](const auto& gather) {
+        const GgxLobe<Batch> lobe = gather_lobe(gather(alphas), gather(wos));
         const Cap<Batch> cap{gather(axes).direction(), versine_of_angle(gather(half_angles)(0))};
-        const auto integral = integrate(ggx_cap_light(lobe, cap), Batch(static_cast<float>(error_budget / 100)));
-        const Lanes value = store(integral.sums.plain), error = store(integral.predicted_error),
-                    method = store(integral.method);
-        for (py::ssize_t i = first; i < std::min(first + static_cast<py::ssize_t>(batch_size), count); ++i) {
-            const auto lane = static_cast<size_t>(i - first);
-            values.mutable_data()[i] = value[lane];
-            errors.mutable_data()[i] = error[lane];
-            methods.mutable_data()[i] = static_cast<int>(method[lane]);
-        }
-    }
-    return py::make_tuple(values[py::tuple()], errors[py::tuple()], methods[py::tuple()]);
+        return integrate(ggx_cap_light(lobe, cap), Batch(static_cast<float>(error_budget / 100)));
+    };
+    return evaluate_batches(common, cap_integral);
+}
+
+py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py::object& center,
+                         const py::object& half_u, const py::object& half_v, bool ellipse, double error_budget) {
+    budget_spec.check(&error_budget, 1);
+    const UpperDirection wo_spec{{"wo"}};
+    const Vector center_spec{"center"}, u_spec{"half_u"}, v_spec{"half_v"};
+    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), centers(center_spec, center), us(u_spec, half_u),
+        vs(v_spec, half_v);
+    Shape common;
+    broadcast(common, alphas.leading, "alpha");
+    broadcast(common, wos.leading, "wo");
+    broadcast(common, centers.leading, "center");
+    broadcast(common, us.leading, "half_u");
+    broadcast(common, vs.leading, "half_v");
+    const auto area_integral = [&](const auto& gather) {
+        const GgxLobe<Batch> lobe = gather_lobe(gather(alphas), gather(wos));
+        const AreaOutline<Batch> outline{gather(centers).direction(), gather(us).direction(), gather(vs).direction(),
+                                         ellipse};
+        return integrate(lobe, outline, Batch(static_cast<float>(error_budget / 100)));
+    };
+    return evaluate_batches(common, area_integral);
 }
 
 }  // namespace
@@ -85,6 +119,12 @@ cheapest method whose predicted error meets the budget: what the analytic integr
 normal. alpha (n,) in [1e-3, 1]; wo and cap_axis (n, 3), unit, wo above the surface; half_angle (n,) in radians, at
 most pi/2; error_budget in percent, relative to max(value, 1e-3). All broadcast.
 value: reflected over emitted radiance, float32. error: the predicted relative error. method: an index into METHODS.)");
+    shading.def("ggx_area_light", &ggx_area_light, py::arg("alpha"), py::arg("wo"), py::arg("center"),
+                py::arg("half_u"), py::arg("half_v"), py::arg("ellipse"), py::arg("error_budget"),
+                R"(ggx_area_light(alpha, wo, center, half_u, half_v, ellipse, error_budget): (value, error, method).
+
+The same for a parallelogram, or the ellipse in it: center (n, 3) from the shaded point, half_u and half_v (n, 3) from
+the centre to the middle of two sides, in the shading frame.)");
 }
 
 }  // namespace pivot::bindings

@@ -51,13 +51,14 @@ namespace detail {
 
 /// The positive root, at most 1, of m^3 - trace m^2 + minors m - det2, all of whose roots are real and two negative.
 /// Starts above it, from 1 or without m^3 where that helps, and takes Laguerre's steps: four reach the rounding of a
-/// double.
+/// double, two that of a float.
 template <class T>
 T positive_root(T trace, T minors, T det2) {
     const T r = safe_sqrt(minors * minors - T(4) * trace * det2);
     const T quadratic = select(minors > T(0), T(2) * det2 / (minors + r), (r - minors) / (T(-2) * trace));
     T m = select(trace < T(0), min(quadratic, T(1)), T(1));
-    for (int i = 0; i < 4; ++i) {
+    constexpr int steps = std::numeric_limits<T>::digits > 24 ? 4 : 2;
+    for (int i = 0; i < steps; ++i) {
         const T f = ((m - trace) * m + minors) * m - det2;
         const T slope = (T(3) * m - T(2) * trace) * m + minors;
         const T bend = T(6) * m - T(2) * trace;

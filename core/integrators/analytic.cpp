@@ -39,22 +39,54 @@ struct Gathered {
     }
 };
 
+using LightShading = std::variant<CapLightShading, AreaLightShading>;
+
+LightShading shade_light(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings) {
+    if (const auto* area = std::get_if<AreaLight>(&light)) return AreaLightShading(*area, batch, settings);
+    return CapLightShading(light, batch, settings);
+}
+
+const Reflection& reflection_of(const LightShading& shading) {
+    return std::visit([](const auto& s) -> const Reflection& { return s.reflection(); }, shading);
+}
+
+Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const FixedPoints& points) {
+    return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points); }, shading);
+}
+
+/// The largest part that one light's reflection has of any lane's total.
+float largest_share(const Reflection& reflection, std::span<const float> totals) {
+    float share = 0.0f;
+    for (std::size_t i = 0; i < totals.size(); ++i)
+        if (totals[i] > 0.0f)
+            share = std::max(share, max_component(reflection.diffuse[i] + reflection.glossy[i]) / totals[i]);
+    return share;
+}
+
+/// All lights in closed form first: one that gives little of the total needs few rays for its share of the budget.
 void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                 const SurfaceBatch& batch, std::span<Gathered> gathered) {
+    std::vector<LightShading> shadings;
+    shadings.reserve(scene.lights().size());
+    std::array<float, batch_size> totals{};
     for (const Light& light : scene.lights()) {
-        const bool is_area = std::holds_alternative<AreaLight>(light);
-        const bool hides = settings.occlusion == Occlusion::ray_traced;
-        Reflection reflection = [&] {
-            if (is_area) return shade_area_light(scene, std::get<AreaLight>(light), batch, settings, points);
-            const CapLightShading shading(light, batch, settings);
-            return hides ? shading.seen_by_rays(scene, points) : shading.reflection();
-        }();
+        shadings.push_back(shade_light(light, batch, settings));
+        const Reflection& reflection = reflection_of(shadings.back());
+        for (std::size_t i = 0; i < batch.count; ++i)
+            totals[i] += max_component(reflection.diffuse[i] + reflection.glossy[i]);
+    }
+    for (std::size_t k = 0; k < shadings.size(); ++k) {
+        Reflection reflection = reflection_of(shadings[k]);
+        const float share = largest_share(reflection, std::span(totals).first(batch.count));
+        if (!(share > 0.0f)) continue;
+        if (settings.occlusion == Occlusion::ray_traced)
+            reflection = seen_by_rays(shadings[k], scene, points.for_share(share));
         for (std::size_t i = 0; i < batch.count; ++i) {
             if (settings.occlusion == Occlusion::bent_cone) {
                 const auto& [point, surface, bent_cone] = *batch.lanes[i];
-                const SeenShare share = seen_share(light, bent_cone, point, surface);
-                reflection.diffuse[i] *= share.diffuse;
-                reflection.glossy[i] *= share.glossy;
+                const SeenShare seen = seen_share(scene.lights()[k], bent_cone, point, surface);
+                reflection.diffuse[i] *= seen.diffuse;
+                reflection.glossy[i] *= seen.glossy;
             }
             gathered[i].add(reflection.diffuse[i], Method::points_1, 0.0f);
             gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.predicted_error[i]);

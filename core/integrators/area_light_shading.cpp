@@ -46,24 +46,42 @@ LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight&
     return integrate(batch.lobe, outline, Batch(automatic ? 0.01f * settings.error_budget_percent : 1e-4f));
 }
 
-/// Rays to fixed points of the light, each lobe weighing them by what it reflects of them.
-void see_by_rays(const Scene& scene, const AreaLight& light, const SurfaceBatch& batch, const FixedPoints& points,
-                 Reflection& reflection) {
+}  // namespace
+
+AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& batch, const RenderSettings& settings)
+    : light_(light), batch_(batch) {
+    const AreaOutline<Batch> outline = local_outline(light, batch);
+    const Lanes facing =
+        gather_lanes(batch, [&](const ShadingPoint& p) { return dot(p.point.position - light.center, light.normal); });
+    if (std::none_of(facing.begin(), facing.end(), [](float f) { return f > 0.0f; }) || !any(is_above(outline))) return;
+    if (batch.has_glossy)
+        put_glossy(batch, integrate_glossy(batch, light, outline, settings), light.radiance, reflection_);
+    if (batch.has_diffuse) {
+        const Batch above = select(is_above(outline), Batch(1.0f), Batch(0.0f));
+        const Lanes shares = store(above * diffuse_share<4, 4>(outline, outline_above<2>(outline)));
+        for (std::size_t i = 0; i < batch.count; ++i)
+            reflection_.diffuse[i] = light.radiance * batch.lanes[i]->surface.diffuse * shares[i];
+    }
+    for (std::size_t i = 0; i < batch.count; ++i)
+        if (!(facing[i] > 0.0f)) reflection_.diffuse[i] = reflection_.glossy[i] = Rgb(0.0f);
+}
+
+Reflection AreaLightShading::seen_by_rays(const Scene& scene, const FixedPoints& points) const {
     std::vector<Ray> rays;
     std::vector<std::size_t> lanes;
     std::vector<float> cosines, lobes;
     const std::uint32_t count = points.count();
     for (std::uint32_t k = 0; k < count; ++k) {
         const Vec2f u = points.point(PointSet::light_diffuse, k, count);
-        const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
-        const Vec3f on_light = light.center + place.x * light.half_u + place.y * light.half_v;
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        const Vec2f place = light_.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
+        const Vec3f on_light = light_.center + place.x * light_.half_u + place.y * light_.half_v;
+        for (std::size_t i = 0; i < batch_.count; ++i) {
+            const auto& [point, surface, bent_cone] = *batch_.lanes[i];
             const Vec3f d = on_light - point.position;
             const float distance_m = length(d);
             const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
             if (!(wi_local.z > 0.0f)) continue;
-            const float solid_angle = -dot(wi, light.normal) / sqr(distance_m);
+            const float solid_angle = -dot(wi, light_.normal) / sqr(distance_m);
             rays.push_back({point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)});
             lanes.push_back(i);
             cosines.push_back(solid_angle * wi_local.z);
@@ -77,42 +95,18 @@ void see_by_rays(const Scene& scene, const AreaLight& light, const SurfaceBatch&
     std::array<LaneShares, batch_size> shares{};
     for (std::size_t r = 0; r < rays.size(); ++r) {
         LaneShares& share = shares[lanes[r]];
-        const bool is_seen = !occluded[r] && batch.lanes[lanes[r]]->point.faces(rays[r].direction);
+        const bool is_seen = !occluded[r] && batch_.lanes[lanes[r]]->point.faces(rays[r].direction);
         share.diffuse.all += cosines[r];
         share.glossy.all += lobes[r];
         if (is_seen) share.diffuse.seen += cosines[r];
         if (is_seen) share.glossy.seen += lobes[r];
     }
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        reflection.diffuse[i] *= shares[i].diffuse.value();
-        reflection.glossy[i] *= shares[i].glossy.value();
+    Reflection seen = reflection_;
+    for (std::size_t i = 0; i < batch_.count; ++i) {
+        seen.diffuse[i] *= shares[i].diffuse.value();
+        seen.glossy[i] *= shares[i].glossy.value();
     }
-}
-
-}  // namespace
-
-Reflection shade_area_light(const Scene& scene, const AreaLight& light, const SurfaceBatch& batch,
-                            const RenderSettings& settings, const FixedPoints& points) {
-    Reflection reflection{};
-    const AreaOutline<Batch> outline = local_outline(light, batch);
-    const Lanes facing =
-        gather_lanes(batch, [&](const ShadingPoint& p) { return dot(p.point.position - light.center, light.normal); });
-    if (std::none_of(facing.begin(), facing.end(), [](float f) { return f > 0.0f; }) || !any(is_above(outline)))
-        return reflection;
-    if (batch.has_glossy) {
-        const LobeIntegral<Batch> integral = integrate_glossy(batch, light, outline, settings);
-        put_glossy(batch, integral, light.radiance, reflection);
-    }
-    if (batch.has_diffuse) {
-        const Batch above = select(is_above(outline), Batch(1.0f), Batch(0.0f));
-        const Lanes shares = store(above * diffuse_share<4, 4>(outline, outline_above<2>(outline)));
-        for (std::size_t i = 0; i < batch.count; ++i)
-            reflection.diffuse[i] = light.radiance * batch.lanes[i]->surface.diffuse * shares[i];
-    }
-    for (std::size_t i = 0; i < batch.count; ++i)
-        if (!(facing[i] > 0.0f)) reflection.diffuse[i] = reflection.glossy[i] = Rgb(0.0f);
-    if (settings.occlusion == Occlusion::ray_traced) see_by_rays(scene, light, batch, points, reflection);
-    return reflection;
+    return seen;
 }
 
 }  // namespace pivot

@@ -5,8 +5,21 @@
 
 namespace pivot {
 
-/// What each lane reflects of the light, and what hides it.
-Reflection shade_area_light(const Scene& scene, const AreaLight& light, const SurfaceBatch& batch,
-                            const RenderSettings& settings, const FixedPoints& points);
+class AreaLightShading {
+   public:
+    AreaLightShading(const AreaLight& light, const SurfaceBatch& batch, const RenderSettings& settings);
+
+    /// Of light that nothing hides.
+    const Reflection& reflection() const { return reflection_; }
+
+    /// The same times the share of the light that each lane sees, by rays to fixed points of it, which each lobe weighs
+    /// by what it reflects of them.
+    Reflection seen_by_rays(const Scene& scene, const FixedPoints& points) const;
+
+   private:
+    const AreaLight& light_;
+    const SurfaceBatch& batch_;
+    Reflection reflection_{};
+};
 
 }  // namespace pivot

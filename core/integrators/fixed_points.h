@@ -21,6 +21,14 @@ class FixedPoints {
 
     std::uint32_t count() const { return count_; }
 
+    /// For a light that gives this share of all light: its steps are that much smaller.
+    FixedPoints for_share(float share) const {
+        FixedPoints fewer = *this;
+        const float needed = std::ceil(static_cast<float>(count_) * std::min(share, 1.0f));
+        fewer.count_ = std::max(1u, static_cast<std::uint32_t>(needed));
+        return fewer;
+    }
+
     /// Point k of `count` points of a set.
     Vec2f point(PointSet set, std::uint32_t k, std::uint32_t count) const {
         return Sampler(0u, sample_index_ * count + k).point(static_cast<std::uint32_t>(set));
