@@ -102,8 +102,11 @@ LightProxies::Values light_importance(const SurfacePoint& point, const Surface& 
         if (surface.has_glossy()) {
             const GgxCap<Batch> g = ggx_cap(wo, local, alpha, alpha);
             const Batch fresnel = lerp(f0, f90, schlick_weight(g.cos_half));
-            // Across the horizon the closed form is not known: as if the lobe lay all in the cap.
-            reflected += fresnel * select(g.valid, min(g.integral, one), min(one, local.versine));
+            // Across the horizon the closed form is not known: the lobe's density at the centre, but no less than if it
+            // were even.
+            const Batch density = ggx_ndf(normalize(wo + local.axis), alpha, alpha) / (Batch(4.0f) * wo.z);
+            const Batch guess = min(max(density * solid_angle(local), local.versine), one);
+            reflected += fresnel * select(g.valid, min(g.integral, one), guess);
         }
         reflected = select(local.axis.z + sine > zero, reflected, zero);
         const Batch result = reflected * lit * load_at(proxies.radiance, first);

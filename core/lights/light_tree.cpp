@@ -13,26 +13,24 @@ const SphereLight* sphere_of(const Light& light) {
     return std::get_if<SphereLight>(&light);
 }
 
-/// Where a light stands; suns lie together, far away.
+/// Where a light stands that is no sun.
 Vec3f center_of(const Light& light) {
-    if (const SphereLight* sphere = sphere_of(light)) return sphere->center;
-    if (const auto* area = std::get_if<AreaLight>(&light)) return area->center;
-    return Vec3f(1e18f);
+    const SphereLight* sphere = sphere_of(light);
+    return sphere ? sphere->center : std::get<AreaLight>(light).center;
 }
 
 float radius_of(const Light& light) {
     if (const SphereLight* sphere = sphere_of(light)) return sphere->radius_m;
-    if (const auto* area = std::get_if<AreaLight>(&light)) return length(area->half_u) + length(area->half_v);
-    return 1e18f;
+    const auto& area = std::get<AreaLight>(light);
+    return length(area.half_u) + length(area.half_v);
 }
 
 /// Radiance times the area that faces a point: what it gives far away.
 float intensity_of(const Light& light) {
-    if (const SphereLight* sphere = sphere_of(light)) {
-        return mean_component(sphere->radiance) * pi<float> * sqr(sphere->radius_m);
-    }
-    if (const auto* area = std::get_if<AreaLight>(&light)) return mean_component(area->radiance) * area->area_m2;
-    return 0.0f;
+    const SphereLight* sphere = sphere_of(light);
+    if (sphere) return mean_component(sphere->radiance) * pi<float> * sqr(sphere->radius_m);
+    const auto& area = std::get<AreaLight>(light);
+    return mean_component(area.radiance) * area.area_m2;
 }
 
 void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
@@ -54,22 +52,22 @@ void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
     }
 }
 
-/// Groups hold suns where their lights' places have no bounds.
+/// Suns, or lights that are none.
 void set_group(LightProxies& proxies, std::size_t child, const std::vector<Light>& lights,
                std::span<const std::uint32_t> indices) {
     Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
-    float intensity = 0.0f, sun_radiance = 0.0f;
+    float intensity = 0.0f, irradiance = 0.0f;
     for (const std::uint32_t i : indices) {
         if (const auto* sun = std::get_if<SunLight>(&lights[i])) {
-            sun_radiance += mean_component(sun->radiance) * sin2_half_angle(sun->cap);
+            irradiance += mean_component(sun->radiance) * sin2_half_angle(sun->cap);
             continue;
         }
         low = min(low, center_of(lights[i]) - radius_of(lights[i]));
         high = max(high, center_of(lights[i]) + radius_of(lights[i]));
         intensity += intensity_of(lights[i]);
     }
-    if (sun_radiance > 0.0f) {  // from anywhere above
-        proxies.set_sphere(child, Vec3f(0.0f, 0.0f, 1.0f), 0.0f, sun_radiance + intensity);
+    if (irradiance > 0.0f) {  // from anywhere above
+        proxies.set_sphere(child, Vec3f(0.0f, 0.0f, 1.0f), 0.0f, irradiance);
         proxies.sun_versine[child] = 2.0f;
         return;
     }
@@ -102,13 +100,22 @@ LightTree::LightTree(const std::vector<Light>& lights) : leaves_(lights.size()) 
 std::int32_t LightTree::build(const std::vector<Light>& lights, std::span<std::uint32_t> indices) {
     const auto index = static_cast<std::int32_t>(nodes_.size());
     nodes_.emplace_back();
-    // Halved along the longest side until there are eight parts, or single lights.
-    std::vector<std::span<std::uint32_t>> parts{indices};
+    // Suns apart from the rest; then halved along the longest side until there are eight parts, or single lights.
+    const auto is_sun = [&](std::uint32_t i) { return std::holds_alternative<SunLight>(lights[i]); };
+    const auto suns = std::partition(indices.begin(), indices.end(), is_sun);
+    const auto sun_count = static_cast<std::size_t>(suns - indices.begin());
+    std::vector<std::span<std::uint32_t>> parts;
+    for (const auto& part : {indices.first(sun_count), indices.subspan(sun_count)}) {
+        if (!part.empty()) parts.push_back(part);
+    }
     while (parts.size() < light_tree_width) {
         const auto largest = std::max_element(parts.begin(), parts.end(),
-                                              [](const auto& a, const auto& b) { return a.size() < b.size(); });
+                                              [](const auto& x, const auto& y) { return x.size() < y.size(); });
         const std::span<std::uint32_t> part = *largest;
         if (part.size() < 2) break;
+        *largest = part.first(part.size() / 2);
+        parts.push_back(part.subspan(part.size() / 2));
+        if (is_sun(part[0])) continue;  // which way to halve suns matters little
         Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
         for (const std::uint32_t i : part) {
             low = min(low, center_of(lights[i]));
@@ -117,11 +124,9 @@ std::int32_t LightTree::build(const std::vector<Light>& lights, std::span<std::u
         const Vec3f size = high - low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-        std::nth_element(part.begin(), middle, part.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return center_of(lights[a])[axis] < center_of(lights[b])[axis];
+        std::nth_element(part.begin(), middle, part.end(), [&](std::uint32_t x, std::uint32_t y) {
+            return center_of(lights[x])[axis] < center_of(lights[y])[axis];
         });
-        *largest = part.first(part.size() / 2);
-        parts.push_back(part.subspan(part.size() / 2));
     }
     Node node;
     node.count = parts.size();

@@ -289,3 +289,65 @@ def test_box_filter_is_as_wide_as_it_says() -> None:
     set_camera(scene, (0, 0, 10), size=(8, 1), half_width=0.08)
     row = render(scene, samples=4096, max_bounces=0, pixel_filter="BOX", filter_width_px=2.0)[0, :, 0]
     np.testing.assert_allclose(row, [0, 0, 0, 0.25, 0.75, 1, 1, 1], atol=1e-3)
+
+
+def test_adaptive_sampling_is_unbiased_and_spares_samples(by_strategy: dict) -> None:
+    """Its mean over seeds is that of MIS pixel by pixel; a budget that is easily met ends at the pilot."""
+    scene = still_life()
+    scene.set_world((0.1, 0.1, 0.12))
+    settings = {"samples": 128, "max_bounces": 0, "adaptive": True}
+    runs = [
+        render(scene, seed=seed, error_budget_percent=4.0, **settings)[..., :3].mean(-1) for seed in range(900, 912)
+    ]
+    mean, variance = np.mean(runs, 0), np.var(runs, 0, ddof=1) / len(runs)
+    reference, reference_variance = by_strategy["MIS"]
+    z = (mean - reference) / np.sqrt(variance + reference_variance + 1e-12)
+    assert abs(z.mean()) < 0.1
+    assert z.std() < 1.35
+    easy = render(scene, error_budget_percent=1000.0, **settings)
+    pilot = render(scene, samples=32, max_bounces=0)
+    np.testing.assert_array_equal(easy, pilot)
+
+
+def lamps_in_a_grid(count: int) -> pivot_core.Scene:
+    """A glossy floor under count * count lamps of many sizes, a spot and a sun."""
+    scene = pivot_core.Scene()
+    gloss = scene.add_material(
+        "gloss",
+        pivot_core.Material(diffuse=(0.2, 0.2, 0.2), alpha=0.1, conductor_f0=(0.5,) * 3, conductor_f90=(1,) * 3),
+    )
+    scene.add_instances("floor", add_plane(scene), place(), [gloss])
+    scene.add_instances("ball", add_sphere(scene), place(0, 0, 1), [gloss])
+    for x in range(count):
+        for y in range(count):
+            radius, power = 0.1 + 0.1 * ((3 * x + y) % 4), 1.0 + (x * y) % 5
+            place_m = (2.0 * x - count + 1, 2.0 * y - count + 1, 4.0 + 0.1 * x)
+            scene.add_light("lamp", pivot_core.SphereLight(place_m, radius, (power,) * 3))
+    scene.add_light("spot", pivot_core.SpotLight((-3, -4, 4), 0.3, (30, 10, 10), (0.5, 0.6, -0.62449980), 0.9, 0.5))
+    scene.add_light("sun", pivot_core.SunLight((0.6, 0.0, 0.8), 0.1, (0.5, 0.5, 0.6)))
+    set_camera(scene, (0, -9, 3.5), (0, 0, 0.8), (32, 18), 0.45)
+    return scene
+
+
+@pytest.mark.parametrize("strategy", ["JOINT", "MIS"])
+def test_chosen_lights_converge_to_the_sum_of_single_lights(strategy: str) -> None:
+    """Eleven lights are chosen among; each alone, nothing is chosen."""
+    scene = lamps_in_a_grid(3)
+    seeds = range(24)
+    runs = [render(scene, samples=64, seed=s, max_bounces=0, light_sampling=strategy)[..., :3].mean(-1) for s in seeds]
+    lights = range(11)
+    singles = []
+    for seed in range(100, 112):
+        total = np.zeros_like(runs[0])
+        for kept in lights:
+            alone = lamps_in_a_grid(3)
+            for light in lights:
+                if light != kept:
+                    alone.remove_light(light)
+            total += render(alone, samples=16, seed=seed, max_bounces=0)[..., :3].mean(-1)
+        singles.append(total)
+    difference = np.mean(runs, 0) - np.mean(singles, 0)
+    z = difference / np.sqrt(np.var(runs, 0, ddof=1) / len(runs) + np.var(singles, 0, ddof=1) / len(singles) + 1e-12)
+    assert abs(difference.mean() / np.mean(singles)) < 3e-3
+    assert abs(z.mean()) < 0.15
+    assert np.median(np.abs(z)) < 0.95  # of a standard normal: 0.67
