@@ -88,6 +88,10 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
         layout.prop(pivot, "integrator")
         layout.prop(pivot, "samples")
         if pivot.integrator == "MONTE_CARLO":
+            layout.prop(pivot, "adaptive")
+            budget = layout.column()
+            budget.active = pivot.adaptive
+            budget.prop(pivot, "error_budget")
             layout.prop(pivot, "light_sampling")
             layout.prop(pivot, "max_bounces")
             layout.prop(pivot, "seed")

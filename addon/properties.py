@@ -35,6 +35,11 @@ OCCLUSIONS = (
 class PivotSettings(bpy.types.PropertyGroup):
     integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO")
     samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, soft_max=4096, max=1 << 20)
+    adaptive: BoolProperty(
+        name="Adaptive",
+        description="Stop each pixel at the error budget; the samples are the most it gets",
+        default=False,
+    )
     seed: IntProperty(
         name="Seed", description="The same seed gives the same picture on the same machine", default=0, min=0
     )
@@ -49,7 +54,7 @@ class PivotSettings(bpy.types.PropertyGroup):
     )
     error_budget: FloatProperty(
         name="Error Budget",
-        description="The largest error the analytic integrator may make by a cheaper method",
+        description="The largest error that a cheaper method, or a pixel under adaptive sampling, may have",
         default=2.0,
         min=0.01,
         max=100.0,

@@ -21,6 +21,7 @@ def render_settings(native: Any, scene: bpy.types.Scene, samples: int, max_bounc
         return native.RenderSettings(
             integrator=pivot.integrator,
             samples=samples,
+            adaptive=pivot.adaptive,
             seed=pivot.seed,
             max_bounces=max_bounces,
             light_sampling=pivot.light_sampling,

@@ -17,6 +17,7 @@ def test_defaults(cases: Any) -> None:
     assert cases["defaults"] | {"threads": 0} == {
         "integrator": "MONTE_CARLO",
         "samples": 64,
+        "adaptive": False,
         "seed": 0,
         "max_bounces": 4,
         "light_sampling": "JOINT",
@@ -35,6 +36,7 @@ def test_settings(cases: Any) -> None:
     assert cases["settings"] == {
         "integrator": "ANALYTIC",
         "samples": 7,
+        "adaptive": True,
         "seed": 3,
         "max_bounces": 0,
         "light_sampling": "SPTD",

@@ -28,7 +28,7 @@ def _settings() -> Any:
     parts.camera()
     pivot, render = bpy.context.scene.pivot, bpy.context.scene.render
     pivot.integrator, pivot.light_sampling = "ANALYTIC", "SPTD"
-    pivot.samples, pivot.seed, pivot.max_bounces = 7, 3, 0
+    pivot.samples, pivot.adaptive, pivot.seed, pivot.max_bounces = 7, True, 3, 0
     pivot.error_budget, pivot.time_limit = 0.5, 12
     pivot.analytic_method, pivot.occlusion = "LTC", "BENT_CONE"
     render.threads_mode, render.threads = "FIXED", 3

@@ -68,6 +68,7 @@ class AreaLight:
 class RenderSettings:
     integrator: str
     samples: int
+    adaptive: bool
     seed: int
     max_bounces: int
     light_sampling: str
