@@ -1,4 +1,6 @@
-"""The analytic integrator's errors and costs: python -m tests.benchmark.analytic [cases] -> build/benchmark/analytic.{csv,png}
+"""The analytic integrator's errors and costs: build/benchmark/analytic.csv and .png.
+
+    python -m tests.benchmark.analytic [cases]
 
 Errors of random lights against brute force, in cells of alpha, view and light size; FLOP slots a point and light (see
 flop_slots.cpp, compiled here); the time of 64 lights against one of the same power. matplotlib draws the picture.
@@ -146,7 +148,7 @@ def many_lights() -> list[Row]:
         for x in range(-2, 3):
             scene.add_instances(f"ball {x}", ball, place(x, 0, 0.5, 0.45), [material])
         for i in range(count):
-            position = tuple(rng.uniform(-3, 3, 2)) + (rng.uniform(2, 4),)
+            position = (*rng.uniform(-3, 3, 2), rng.uniform(2, 4))
             scene.add_light(f"light {i}", pivot_core.SphereLight(position, 0.15, (60 / count,) * 3))
         set_camera(scene, (0, -6, 3), size=(320, 180))
         settings = pivot_core.RenderSettings(integrator="ANALYTIC", samples=2, occlusion=occlusion)
