@@ -7,6 +7,7 @@ import atexit
 import addon_utils
 
 from . import engine, panels, properties
+from .chart import operators as chart_operators
 
 bl_info = {
     "name": "Pivot",
@@ -18,7 +19,7 @@ bl_info = {
     "category": "Render",
 }
 
-_MODULES = (properties, engine, panels)
+_MODULES = (properties, engine, chart_operators, panels)
 
 
 def register() -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from .chart import operators as chart_operators
 from .engine import PivotRenderEngine
 from .passes import PASSES
 
@@ -100,6 +101,13 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
             layout.prop(pivot, "error_budget")
             layout.prop(pivot, "occlusion")
         layout.prop(pivot, "time_limit")
+
+
+class PIVOT_RENDER_PT_chart(_PivotPanel, bpy.types.Panel):
+    bl_label = "Speed and Accuracy"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        chart_operators.draw(self.layout, context)
 
 
 class PIVOT_RENDER_PT_film(_PivotPanel, bpy.types.Panel):
@@ -197,6 +205,7 @@ class PIVOT_LIGHT_PT_light(_PivotPanel, bpy.types.Panel):
 
 _CLASSES = (
     PIVOT_RENDER_PT_sampling,
+    PIVOT_RENDER_PT_chart,
     PIVOT_RENDER_PT_film,
     PIVOT_RENDER_PT_performance,
     PIVOT_VIEWLAYER_PT_passes,

@@ -53,7 +53,7 @@ def png_size(path: Path) -> tuple[int, int]:
 def test_bare_prints_help() -> None:
     ran = run()
     assert ran.returncode == 0
-    for command in ("render", "test", "blender", "python"):
+    for command in ("render", "test", "blender", "python", "chart"):
         assert f"./run {command} " in ran.stdout
 
 
@@ -64,6 +64,8 @@ def test_bare_prints_help() -> None:
         (("render", "nowhere.blend"), "no such file: nowhere.blend"),
         (("render", "run", "-f", "1"), "options come after --"),
         (("render", "--", "-f"), "-f needs a frame"),
+        (("chart", "nowhere.blend"), "no such file: nowhere.blend"),
+        (("chart", "a.blend", "b.blend"), "chart takes one file"),
     ],
 )
 def test_a_mistake_gets_one_line(arguments: tuple[str, ...], error: str) -> None:
@@ -107,6 +109,28 @@ def test_a_failed_render_says_why_and_writes_nothing(tmp_path: Path, scene: Path
     assert "camera" in ran.stderr
     assert ran.stderr.splitlines()[-1].startswith("run: rendering failed")
     assert names(tmp_path) == ["my scenes"]
+
+
+def test_chart_writes_table_chart_and_sheet_and_keeps_what_it_rendered(scene: Path) -> None:
+    output = ROOT / "build/chart"
+    made = [output / f"{scene.stem}{kind}" for kind in (".png", ".csv", "-sheet.png")]
+    for path in made:
+        path.unlink(missing_ok=True)
+    ran = run("chart", scene, PIVOT_CHART_LADDER="SMALL")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert [f"Wrote {path}" for path in made] == [line for line in ran.stdout.splitlines() if line.startswith("Wrote")]
+    assert "skipped: Mitsuba" in ran.stderr
+    for path in (made[0], made[2]):
+        assert min(png_size(path)) > 200
+    first = made[1].read_text()
+    head, *lines = first.splitlines()
+    assert head.split(",")[:4] == ["renderer", "method", "setting", "samples"]
+    assert len(lines) == 17
+    assert all(0 < float(line.split(",")[6]) < 1 for line in lines)  # FLIP
+    again = run("chart", scene, PIVOT_CHART_LADDER="SMALL")
+    assert again.returncode == 0, again.stderr
+    assert "Charting" not in again.stderr.replace("Charting /", "")  # no picture is rendered twice: no bar
+    assert made[1].read_text() == first
 
 
 def test_blender_renders_with_pivot(tmp_path: Path, scene: Path) -> None:

@@ -1,0 +1,66 @@
+"""The settings a chart compares: lines of them, a method each, from fast to accurate. Direct light only: the one light
+transport that all methods have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One picture: a point of a method's line."""
+
+    renderer: str  # "PIVOT", or another that is measured beside it
+    method: str  # the line's name
+    label: str  # the point's
+    samples: int
+    settings: dict[str, Any] = field(default_factory=dict)  # Pivot's: of scene.pivot
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """width_px: of the charted picture. The reference is Monte Carlo of reference_samples samples, in parts."""
+
+    rungs: tuple[Rung, ...]
+    width_px: int
+    reference_samples: int
+
+    def of(self, renderer: str) -> list[Rung]:
+        return [rung for rung in self.rungs if rung.renderer == renderer]
+
+
+REFERENCE_PARTS = 4  # of equal size: their differences tell the reference's own noise
+REFERENCE_SETTINGS = {"integrator": "MONTE_CARLO", "light_sampling": "JOINT"}
+
+_MONTE_CARLO = {"JOINT": "Monte Carlo, joint", "SPTD": "Monte Carlo, SPTD", "MIS": "Monte Carlo, MIS"}
+_ANALYTIC = {"AUTO": "Analytic", "EXACT": "Analytic, exact", "SPTD": "Analytic, SPTD", "LTC": "Analytic, LTC"}
+_BUDGETS = (10.0, 5.0, 2.0, 1.0, 0.5)
+
+
+def pivot_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], budget_samples: int) -> Iterator[Rung]:
+    """monte_carlo, analytic: the samples of each point. budget_samples: of the line along the error budget."""
+    for name, method in _MONTE_CARLO.items():
+        for samples in monte_carlo:
+            settings = {"integrator": "MONTE_CARLO", "light_sampling": name}
+            yield Rung("PIVOT", method, f"{samples}", samples, settings)
+    for name, method in _ANALYTIC.items():
+        for samples in analytic:
+            settings = {"integrator": "ANALYTIC", "analytic_method": name, "error_budget": 2.0}
+            yield Rung("PIVOT", method, f"{samples}", samples, settings)
+    for budget in _BUDGETS:
+        settings = {"integrator": "ANALYTIC", "analytic_method": "AUTO", "error_budget": budget}
+        yield Rung("PIVOT", "Analytic, by budget", f"{budget:g} %", budget_samples, settings)
+
+
+def cycles_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
+    for count in samples:
+        yield Rung("CYCLES", "Cycles", f"{count}", count)
+
+
+FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 16), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
+PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 16)), 160, 1024)
+SMALL = Ladder((*pivot_rungs((1, 8), (1,), 4), *cycles_rungs((1, 8))), 32, 128)
+LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL}

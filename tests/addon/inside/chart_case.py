@@ -1,0 +1,76 @@
+"""A small chart from the operator, end to end: the background Blender, the picture, the suggestion."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from typing import Any
+
+import bpy
+import parts
+
+
+def main(folder: Path) -> Any:
+    _scene()
+    pivot, chart = bpy.context.scene.pivot, bpy.context.window_manager.pivot_chart
+    finished = bpy.ops.pivot.chart(ladder="SMALL")
+    image = bpy.data.images["Speed vs Accuracy"]
+    rows = importlib.import_module("pivot.chart.measure").rows_from_json(chart.rows)
+    pivot.error_budget = 100.0
+    suggestion = chart.suggestion(bpy.context.scene)
+    applied = bpy.ops.pivot.chart_apply()
+    after = {name: getattr(pivot, name) for name in ("samples", *suggestion.rung.settings)}
+    pivot.error_budget = 0.01
+    return {
+        "finished": list(finished),
+        "is_running": chart.is_running,
+        "size": list(image.size),
+        "colors": len({tuple(pixel) for pixel in _pixels(image)}),
+        "rows": [
+            {"renderer": row.rung.renderer, "method": row.rung.method, "cpu_s": row.cpu_s, "rel_mse": row.rel_mse,
+             "samples": row.rung.samples, "percent": row.error_percent}
+            for row in rows
+        ],
+        "suggestion": {"samples": suggestion.rung.samples, **suggestion.rung.settings},
+        "suggestion_cpu_s": suggestion.cpu_s,
+        "applied": list(applied),
+        "after": after,
+        "suggestion_out_of_reach": chart.suggestion(bpy.context.scene) is not None,
+        "failure": _failure(),
+        "cancelled": _cancelled(),
+    }  # fmt: skip
+
+
+def _scene() -> None:
+    """A glossy square under a sphere light that shines from beside the camera."""
+    parts.clear()
+    parts.size(64, 64)
+    parts.camera()
+    parts.quad("Floor", material=parts.shaded("satin", "ShaderNodeBsdfPrincipled", Roughness=0.4)[0])
+    parts.light("Lamp", "POINT", (1, 0, 3), energy=200.0, shadow_soft_size=0.5)
+
+
+def _pixels(image: bpy.types.Image) -> Any:
+    flat = [0.0] * (image.size[0] * image.size[1] * 4)
+    image.pixels.foreach_get(flat)
+    return zip(*(flat[channel::4] for channel in range(3)), strict=True)
+
+
+def _failure() -> str:
+    """What the operator reports of a scene that cannot be rendered."""
+    _scene()
+    bpy.context.scene.camera = None
+    try:
+        bpy.ops.pivot.chart(ladder="SMALL")
+    except RuntimeError as error:
+        return str(error)
+    return ""
+
+
+def _cancelled() -> bool:
+    """Whether a job that is cancelled has ended."""
+    _scene()
+    job = importlib.import_module("pivot.chart.job").ChartJob("PANEL")
+    running = not job.done()
+    job.cancel()
+    return running and job.done()
