@@ -1,6 +1,7 @@
 """./run as a person uses it: from any folder, with any file name, and with an error that names its fix."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -53,7 +54,7 @@ def png_size(path: Path) -> tuple[int, int]:
 def test_bare_prints_help() -> None:
     ran = run()
     assert ran.returncode == 0
-    for command in ("render", "test", "blender", "python", "chart"):
+    for command in ("render", "test", "blender", "python", "chart", "stability"):
         assert f"./run {command} " in ran.stdout
 
 
@@ -131,6 +132,19 @@ def test_chart_writes_table_chart_and_sheet_and_keeps_what_it_rendered(scene: Pa
     assert again.returncode == 0, again.stderr
     assert "Charting" not in again.stderr.replace("Charting /", "")  # no picture is rendered twice: no bar
     assert made[1].read_text() == first
+
+
+def test_stability_writes_the_table_and_its_picture() -> None:
+    table, picture = (ROOT / "build" / f"stability{kind}" for kind in (".csv", ".png"))
+    for path in (table, picture):
+        path.unlink(missing_ok=True)
+    ran = run("stability")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert table.read_text().splitlines()[0].split(",")[-3:] == ["Pivot: error", "bound", "method"]
+    found = re.search(r"(\d+) rows, (\d+) within their bound", ran.stdout)
+    assert found
+    assert found[1] == found[2]
+    assert min(png_size(picture)) > 800
 
 
 def test_blender_renders_with_pivot(tmp_path: Path, scene: Path) -> None:

@@ -27,6 +27,7 @@ COLORS: dict[str, Color] = {
 WIDTH, HEIGHT = 1040, 640
 LEFT, RIGHT, BOTTOM, TOP = 84, 250, 70, 84  # margins
 _LABEL_PX = 21  # between the lines' names
+_POINT_PX = 30  # between the front's labelled points
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -99,8 +100,11 @@ def draw_chart(core: ModuleType, rows: Sequence[Row], path: Path, title: str, no
         canvas.line([place(row) for row in line], 2.5, color)
         for row in line:
             canvas.dot(*place(row), 4.5, color)
+    labelled: list[tuple[float, float]] = []
     for row in front:
-        canvas.text(place(row)[0] - 7, place(row)[1] - 17, row.rung.label, 13, INK, "RIGHT")
+        if all(math.dist(place(row), other) > _POINT_PX for other in labelled):
+            canvas.text(place(row)[0] - 7, place(row)[1] - 17, row.rung.label, 13, INK, "RIGHT")
+            labelled.append(place(row))
     canvas.line([(WIDTH - RIGHT + 24, 30), (WIDTH - RIGHT + 54, 30)], 13, FRONT)
     canvas.text(WIDTH - RIGHT + 68, 25, "Pareto front", 14, INK)
     write_png(path, canvas.render())
