@@ -18,6 +18,7 @@ constexpr std::array<std::array<float, 3>, method_names.size()> method_colors{{{
                                                                                {1.0f, 0.35f, 0.0f},
                                                                                {1.0f, 0.05f, 0.0f},
                                                                                {0.5f, 0.2f, 0.8f},
+                                                                               {0.9f, 0.2f, 0.6f},
                                                                                {0.4f, 0.4f, 0.4f},
                                                                                {0.7f, 0.7f, 0.7f},
                                                                                {1.0f, 1.0f, 1.0f}}};

@@ -21,15 +21,16 @@ enum class Method : unsigned char {
     slices_5,  ///< the exact core's disk, cut at the horizon, by 5 x 5, 6 x 6 or 8 x 8 points a panel
     slices_6,
     slices_8,
-    contour,  ///< the exact contour of an area light
+    area_points,      ///< points of an area light, spread as the lobe sees it
+    lobe_directions,  ///< directions of the lobe that meet an area light
     sptd,
     ltc,
     point_set,  ///< light from everywhere
 };
 
-inline constexpr std::array<std::string_view, 12> method_names{"NONE",      "POINTS_1", "POINTS_4", "POINTS_8",
-                                                               "POINTS_16", "SLICES_5", "SLICES_6", "SLICES_8",
-                                                               "CONTOUR",   "SPTD",     "LTC",      "POINT_SET"};
+inline constexpr std::array<std::string_view, 13> method_names{
+    "NONE",     "POINTS_1",    "POINTS_4",        "POINTS_8", "POINTS_16", "SLICES_5", "SLICES_6",
+    "SLICES_8", "AREA_POINTS", "LOBE_DIRECTIONS", "SPTD",     "LTC",       "POINT_SET"};
 
 /// The error of the exact core's one point, for a cap of the given versine that does not cross the horizon. What the
 /// point takes for constant is masking-shadowing: its relative slope along z, and the slope's own scale, z.
