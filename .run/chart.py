@@ -8,6 +8,7 @@ Pivot and Cycles are each held against their own converged picture. The charting
 from __future__ import annotations
 
 import csv
+import functools
 import importlib
 import os
 import sys
@@ -67,8 +68,8 @@ def error_colors(relative: Floats) -> Floats:
     return np.stack([np.clip(3 * relative - k, 0, 1) for k in range(3)], -1)
 
 
-def draw_sheet(canvas_module: Any, core: Any, rows: Sequence[Any], references: dict[str, Any], path: Path) -> None:
-    """A crop of each method at about the same cost, its error map below it."""
+def draw_sheet(new_canvas: Any, rows: Sequence[Any], references: dict[str, Any]) -> Any:
+    """A canvas with a crop of each method at about the same cost, its error map below it. new_canvas: of its size."""
     budget_s = float(np.median([row.cpu_s for row in rows]))
     chosen: dict[str, Any] = {}
     for row in rows:
@@ -90,7 +91,7 @@ def draw_sheet(canvas_module: Any, core: Any, rows: Sequence[Any], references: d
     side = blank.shape[0] * zoom
     width, height = side + GAP_PX, 2 * side + GAP_PX + TEXT_PX
     lines = -(-len(cells) // COLUMNS)
-    canvas = canvas_module.Canvas(core, COLUMNS * width + GAP_PX, lines * height + GAP_PX)
+    canvas = new_canvas(COLUMNS * width + GAP_PX, lines * height + GAP_PX)
     for index, (name, note, picture, errors_seen) in enumerate(cells):
         x = GAP_PX + index % COLUMNS * width
         y = GAP_PX + (lines - 1 - index // COLUMNS) * height
@@ -98,31 +99,33 @@ def draw_sheet(canvas_module: Any, core: Any, rows: Sequence[Any], references: d
             canvas.image(x, y + level * side, pixels.repeat(zoom, 0).repeat(zoom, 1))
         canvas.text(x, y + 2 * side + 22, name, 15, (0.1, 0.1, 0.1))
         canvas.text(x, y + 2 * side + 7, note, 10, (0.4, 0.4, 0.4))
-    canvas_module.write_png(path, canvas.render())
+    return canvas
 
 
 def main(blend: Path, ladder_name: str, folder: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     for addon in ("cycles", "pivot"):
         addon_utils.enable(addon)
-    canvas, errors, ladder, measure, plot = (
-        importlib.import_module(f"pivot.chart.{name}") for name in ("canvas", "errors", "ladder", "measure", "plot")
+    canvas, errors, ladder, measure, pixels, plot = (
+        importlib.import_module(f"pivot.chart.{name}")
+        for name in ("canvas", "errors", "ladder", "measure", "pixels", "plot")
     )
     core = importlib.import_module("pivot.core").load()
     chosen = ladder.LADDERS[ladder_name]
-    print("skipped: Mitsuba, which has no equal of Blender's materials")
+    print("skipped: Mitsuba, which .blend files are not translated for (tests/benchmark/monte_carlo.py compares it)")
     rows = measure.measure(blend, chosen, folder, print)
     pictures = measure.Pictures(folder / measure.scene_key(blend, chosen.width_px))
     references = {
         renderer: measure.reference_of(renderer, chosen, pictures)
         for renderer in {rung.renderer for rung in chosen.rungs}
     }
-    flips = [flip(references[row.rung.renderer].mean, np.load(row.file)["image"], canvas.srgb) for row in rows]
+    flips = [flip(references[row.rung.renderer].mean, np.load(row.file)["image"], pixels.srgb) for row in rows]
     out = {kind: folder / f"{blend.stem}{kind}" for kind in (".png", ".csv", "-sheet.png")}
     plot.draw_chart(core, rows, out[".png"], *plot.titles(blend.stem, chosen))
     noises = {renderer: reference.noise for renderer, reference in references.items()}
     write_csv(out[".csv"], rows, flips, noises)
-    draw_sheet(canvas, core, rows, references, out["-sheet.png"])
+    sheet = draw_sheet(functools.partial(canvas.Canvas, core), rows, references)
+    pixels.write_png(out["-sheet.png"], sheet.render())
     apart = references["PIVOT"].rel_mse(references["CYCLES"].mean)
     print(f"Pivot's and Cycles' converged pictures are relMSE {apart:.2g} apart")
     print(f"{'method':22} {'setting':>8} {'CPU s':>9} {'relMSE':>9} {'FLIP':>7}   Pareto front *")

@@ -51,7 +51,7 @@ def summary(rows: list[Row]) -> list[Row]:
 
 
 def draw(path: Path, rows: list[Row]) -> None:
-    canvas_module = importlib.import_module("pivot.chart.canvas")
+    canvas_module, pixels, plot = (importlib.import_module(f"pivot.chart.{n}") for n in ("canvas", "pixels", "plot"))
     lines = summary(rows)
     kinds = list(dict.fromkeys(row.what for row in lines))
     height = TOP + BOTTOM + LINE_PX * (len(lines) + 2 * len(kinds))
@@ -61,7 +61,6 @@ def draw(path: Path, rows: list[Row]) -> None:
         decade = np.clip(np.log10(max(error, 1e-300)), FIRST, LAST) if np.isfinite(error) else LAST
         return LEFT + float(decade - FIRST) / (LAST - FIRST) * (WIDTH - LEFT - RIGHT)
 
-    canvas.text(WIDTH - RIGHT + 14, height - TOP + 8, "method chosen", 12, GREY)
     canvas.text(16, height - 32, "Float32 where formulas fail: worst relative error", 21, INK)
     legend = ((PRINTED, "as printed in the papers"), (OURS, "Pivot"), (BOUND, "bound that the tests hold"))
     for index, (color, text) in enumerate(legend):
@@ -73,13 +72,15 @@ def draw(path: Path, rows: list[Row]) -> None:
     for decade in range(FIRST, LAST + 1, 2):
         at = x(10.0**decade)
         canvas.line([(at, BOTTOM), (at, height - TOP + 4)], 1, PALE)
-        label = importlib.import_module("pivot.chart.plot").decade(decade)
+        label = plot.decade(decade)
         label = "not finite" if decade == LAST else label
         canvas.text(at, height - TOP + 8, label, 12, GREY, "CENTER")
     y = height - TOP
     for kind in kinds:
         y -= 2 * LINE_PX
         canvas.text(16, y + 4, kind, 14, INK)
+        if kind != "functions":
+            canvas.text(WIDTH - RIGHT + 14, y + 4, "method chosen" if "GGX" in kind else "settings", 12, INK)
         for row in (row for row in lines if row.what == kind):
             y -= LINE_PX
             canvas.text(LEFT - 12, y, row.name, 11, GREY, "RIGHT")
@@ -90,7 +91,7 @@ def draw(path: Path, rows: list[Row]) -> None:
                 canvas.dot(x(row.printed_error), y + 4, 4.5, PRINTED)
             canvas.dot(x(row.error), y + 4, 4.5, OURS)
             canvas.text(WIDTH - RIGHT + 14, y, row.method, 11, GREY)
-    canvas_module.write_png(path, canvas.render())
+    pixels.write_png(path, canvas.render())
 
 
 def main(output: Path) -> None:

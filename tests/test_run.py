@@ -1,5 +1,6 @@
 """./run as a person uses it: from any folder, with any file name, and with an error that names its fix."""
 
+import csv
 import os
 import re
 import shutil
@@ -124,10 +125,10 @@ def test_chart_writes_table_chart_and_sheet_and_keeps_what_it_rendered(scene: Pa
     for path in (made[0], made[2]):
         assert min(png_size(path)) > 200
     first = made[1].read_text()
-    head, *lines = first.splitlines()
-    assert head.split(",")[:4] == ["renderer", "method", "setting", "samples"]
-    assert len(lines) == 17
-    assert all(0 < float(line.split(",")[6]) < 1 for line in lines)  # FLIP
+    rows = list(csv.DictReader(first.splitlines()))
+    assert {row["renderer"] for row in rows} == {"PIVOT", "CYCLES"}
+    assert len(rows) == 17
+    assert all(0 < float(row["FLIP"]) < 1 for row in rows)
     again = run("chart", scene, PIVOT_CHART_LADDER="SMALL")
     assert again.returncode == 0, again.stderr
     assert "Charting" not in again.stderr.replace("Charting /", "")  # no picture is rendered twice: no bar

@@ -6,10 +6,7 @@ Neither matplotlib nor a GPU is there in a background Blender. Pixels, x right a
 from __future__ import annotations
 
 import itertools
-import struct
-import zlib
 from collections.abc import Sequence
-from pathlib import Path
 from types import ModuleType
 
 import bpy
@@ -17,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..export.mesh import mesh_arrays
+from .pixels import linear, to_bytes
 
 Floats = NDArray[np.float64]
 Color = tuple[float, float, float]  # sRGB, 0..1
@@ -24,33 +22,6 @@ Color = tuple[float, float, float]  # sRGB, 0..1
 _DISTANCE_PX = 1e4  # of the camera
 _LAYER_PX = 1.0  # between shapes drawn before and after
 _SAMPLES = 16
-
-
-def linear(srgb: Floats) -> Floats:
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-
-
-def srgb(linear_rgb: Floats) -> Floats:
-    """Clipped to 0..1."""
-    clipped = np.clip(linear_rgb, 0, 1)
-    return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
-
-
-def to_bytes(linear_rgb: Floats) -> NDArray[np.uint8]:
-    return np.round(255 * srgb(linear_rgb)).astype(np.uint8)
-
-
-def write_png(path: Path, image: NDArray[np.uint8]) -> None:
-    """image: (height, width, 3), bottom row first."""
-    height, width, _ = image.shape
-    rows = b"".join(b"\0" + row.tobytes() for row in image[::-1])
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    data = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + data)
 
 
 class Canvas:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from .canvas import Canvas, Color, write_png
+from .canvas import Canvas, Color
 from .errors import Row, pareto_front
 from .ladder import Ladder
+from .pixels import write_png
 
 INK, GREY, PALE, FRONT = (0.13, 0.13, 0.15), (0.45, 0.45, 0.48), (0.9, 0.9, 0.91), (1.0, 0.88, 0.5)
 COLORS: dict[str, Color] = {

@@ -16,10 +16,8 @@ import csv
 import hashlib
 import json
 import os
-import struct
 import subprocess
 import sys
-import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,6 +27,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 FOLDER = Path(__file__).resolve().parent
+sys.path.append(str(FOLDER.parents[1] / "addon" / "chart"))
+import pixels  # noqa: E402  of the addon, which needs no Blender for it
+
 OUTPUT = FOLDER.parents[1] / "build" / "monte_carlo"
 REFERENCE_PARTS = 4
 FIRST_REFERENCE_SEED = 1000
@@ -151,27 +152,12 @@ def measure(renderer: Renderer, scene: str, arguments: argparse.Namespace) -> di
     }
 
 
-def write_png(path: Path, image: NDArray[np.uint8]) -> None:
-    height, width, _ = image.shape
-    rows = b"".join(b"\0" + row.tobytes() for row in image)
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(
-        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
-    )
-
-
 def write_pictures(renderers: list[Renderer], names: list[str], samples: int) -> None:
     """A row a scene, a column a renderer: one seed of each, sRGB."""
     black = np.zeros((scenes.HEIGHT, scenes.WIDTH, 3))
     files = [[picture_file(scene, r.label, r.counts(samples)[1], 0) for r in renderers] for scene in names]
-    rows = [np.concatenate([load(f)[0][::-1] if f.exists() else black for f in row], 1) for row in files]
-    linear = np.clip(np.concatenate(rows, 0), 0, 1)
-    srgb = np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    write_png(OUTPUT / "monte_carlo.png", (255 * srgb + 0.5).astype(np.uint8))
+    rows = [np.concatenate([load(f)[0] if f.exists() else black for f in row], 1) for row in files]
+    pixels.write_png(OUTPUT / "monte_carlo.png", pixels.to_bytes(np.concatenate(rows[::-1], 0)))
 
 
 def print_table(rows: list[dict[str, Any]]) -> None:
