@@ -182,6 +182,8 @@ def draw(rows: list[Row], path: Path) -> None:
             errors.loglog(BUDGETS, np.maximum(line, 1e-4), style, marker="o", label=f"{light}: {what[:-3]}")
     errors.loglog(BUDGETS, BUDGETS, "k:", label="budget")
     errors.set(xlabel="error budget, %", ylabel="error, %")
+    errors.set_xticks(BUDGETS, [f"{b:g}" for b in BUDGETS])
+    errors.minorticks_off()
     errors.legend(fontsize=6)
     bars = [r for r in rows if r[1].startswith("FLOP")]
     costs.barh([r[0].replace(" and ", " and\n", 1) for r in bars][::-1], [r[2] for r in bars][::-1], log=True)
