@@ -43,7 +43,7 @@ LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight&
                                      const AreaOutline<Batch>& outline, const RenderSettings& settings) {
     if (settings.analytic_method == AnalyticMethod::ltc) return integrate_ltc(batch, light);
     const bool automatic = settings.analytic_method == AnalyticMethod::automatic;
-    return integrate(batch.lobe, outline, Batch(automatic ? 0.01f * settings.error_budget_percent : 1e-4f));
+    return integrate(batch.lobe, outline, Batch(automatic ? 0.01f * settings.error_budget_percent : 5e-4f));
 }
 
 }  // namespace

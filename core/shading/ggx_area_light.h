@@ -312,7 +312,9 @@ LobeIntegral<T> integrate(const GgxLobe<T>& lobe, const AreaOutline<T>& light, T
     result.sums = select<T>(pending, result.sums, {});
     result.predicted_error = select(pending, T(1), T(0));
     const auto refine = [&](const LobeSums<T>& finer) {
-        const T difference = abs(finer.plain - result.sums.plain) / max(finer.plain, T(least_value));
+        // the coarser rule's error, which the finer one's is below in 19 cases of 20; a floor for roundings
+        const T difference =
+            T(1.2f) * abs(finer.plain - result.sums.plain) / max(finer.plain, T(least_value)) + T(3e-4f);
         result.sums = select<T>(pending, finer, result.sums);
         result.predicted_error = select(pending, difference, result.predicted_error);
         pending = pending && difference > budget;
