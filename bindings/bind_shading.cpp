@@ -28,10 +28,9 @@ struct Gather {
     py::ssize_t first, count;
 
     Batch operator()(int component) const {
-        Lanes lanes;
-        for (py::ssize_t k = 0; k < static_cast<py::ssize_t>(batch_size); ++k)
-            lanes[static_cast<size_t>(k)] = input.at(std::min(first + k, count - 1), common)[component];
-        return load(lanes);
+        return gather([&](size_t lane) {
+            return input.at(std::min(first + static_cast<py::ssize_t>(lane), count - 1), common)[component];
+        });
     }
     Vec3b direction() const { return {(*this)(0), (*this)(1), (*this)(2)}; }
 };

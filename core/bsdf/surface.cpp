@@ -18,8 +18,6 @@ Rgb multiscatter_scale(const Rgb& mean_fresnel, float albedo, float mean_albedo)
     return Rgb(1.0f) + bounces * ((1.0f - albedo) / albedo);
 }
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
 }  // namespace
 
 Rgb LobeFresnel::at(float cos_theta) const {

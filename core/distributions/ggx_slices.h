@@ -41,7 +41,7 @@ Vec3<T> boost(const GgxCap<T>& g, T time, const Vec2<T>& v, T sign) {
     return {g.gamma * (time + approach), at.x, at.y};
 }
 
-/// y of the ends of what the line x sees of a conic c: select(c5 > 0, {outside of them}, ...).
+/// A conic along the line x.
 template <class T>
 struct LineConic {
     T a, half_b, c, root;  // a y^2 + 2 half_b y + c, and the square root of its discriminant

@@ -8,9 +8,9 @@ namespace pivot {
 namespace {
 
 AreaOutline<Batch> local_outline(const AreaLight& light, const SurfaceBatch& batch) {
-    const auto local = [&](const Vec3f& v) { return batch.frame.to_local(Vec3b(Batch(v.x), Batch(v.y), Batch(v.z))); };
-    const Vec3b center(Batch(light.center.x), Batch(light.center.y), Batch(light.center.z));
-    return {batch.frame.to_local(center - batch.position), local(light.half_u), local(light.half_v), light.ellipse};
+    const auto local = [&](const Vec3b& v) { return batch.frame.to_local(v); };
+    return {local(broadcast(light.center) - batch.position), local(broadcast(light.half_u)),
+            local(broadcast(light.half_v)), light.ellipse};
 }
 
 /// One LTC of the table, clipped at the horizon, with Fresnel at the mirror direction.
@@ -51,8 +51,7 @@ LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight&
 AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& batch, const RenderSettings& settings)
     : light_(light), batch_(batch) {
     const AreaOutline<Batch> outline = local_outline(light, batch);
-    const Lanes facing =
-        gather_lanes(batch, [&](const ShadingPoint& p) { return dot(p.point.position - light.center, light.normal); });
+    const Lanes facing = store(dot(batch.position - broadcast(light.center), broadcast(light.normal)));
     if (std::none_of(facing.begin(), facing.end(), [](float f) { return f > 0.0f; }) || !any(is_above(outline))) return;
     if (batch.has_glossy)
         put_glossy(batch, integrate_glossy(batch, light, outline, settings), light.radiance, reflection_);
@@ -73,8 +72,7 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const FixedPoints&
     const std::uint32_t count = points.count();
     for (std::uint32_t k = 0; k < count; ++k) {
         const Vec2f u = points.point(PointSet::light_diffuse, k, count);
-        const Vec2f place = light_.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
-        const Vec3f on_light = light_.center + place.x * light_.half_u + place.y * light_.half_v;
+        const Vec3f on_light = place_on(light_, u);
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const auto& [point, surface, bent_cone] = *batch_.lanes[i];
             const Vec3f d = on_light - point.position;

@@ -12,18 +12,11 @@ constexpr int max_levels = 2;
 /// Of each choice, this share is even over the patches: it bounds what a patch that looks dark can weigh.
 constexpr float even_share = 0.1f;
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
 /// A part of the unit square that area-preservingly maps to the light.
 struct Patch {
     Vec2f low{0.0f}, size{1.0f};
     float probability = 1.0f;
 };
-
-Vec3f place_on(const AreaLight& light, const Vec2f& u) {
-    const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
-    return light.center + place.x * light.half_u + place.y * light.half_v;
-}
 
 /// How often the light is cut: until a patch looks small beside the lobe.
 int level_count(const AreaLight& light, const SurfacePoint& point, const Surface& surface) {

@@ -8,13 +8,6 @@
 namespace pivot {
 namespace {
 
-Vec3b broadcast(const Vec3f& v) { return {Batch(v.x), Batch(v.y), Batch(v.z)}; }
-
-const SphereLight* sphere_of(const Light& light) {
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->sphere;
-    return std::get_if<SphereLight>(&light);
-}
-
 Cap<Batch> local_cap(const Light& light, const SurfaceBatch& batch) {
     Cap<Batch> cap;
     if (const SphereLight* sphere = sphere_of(light)) {
@@ -29,13 +22,6 @@ Cap<Batch> local_cap(const Light& light, const SurfaceBatch& batch) {
 Rgb radiance_of(const Light& light) {
     if (const SphereLight* sphere = sphere_of(light)) return sphere->radiance;
     return std::get<SunLight>(light).radiance;
-}
-
-/// Of a spot, towards a direction whose cosine to where it shines is cosine.
-Batch spot_falloff(const SpotLight& spot, const Batch& cosine) {
-    const float width = std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f);
-    const Batch t = clamp01((cosine - Batch(spot.cos_half_angle)) / Batch(width));
-    return t * t * (Batch(3.0f) - Batch(2.0f) * t);
 }
 
 /// The direction of the cap nearest to omega.
@@ -54,19 +40,14 @@ Vec3b cap_point(const Cap<Batch>& cap, const Vec2f& xy) {
 
 /// One SPTD lobe of the table, clipped at the horizon [Dupuy17, Sec. 5].
 Batch integrate_sptd(const SurfaceBatch& batch, const Cap<Batch>& cap) {
-    Lanes x, y, z, delta, amplitude;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const Surface& surface = batch.lanes[i]->surface;
-        const GgxSptd lobe = ggx_sptd(surface.alpha, surface.wo_local);
-        x[i] = lobe.pivot_local.x;
-        y[i] = lobe.pivot_local.y;
-        z[i] = lobe.pivot_local.z;
-        delta[i] = lobe.delta;
-        amplitude[i] = lobe.amplitude();
-    }
-    const Pivot<Batch> pivot{{load(x), load(y), load(z)}, load(delta)};
+    std::array<GgxSptd, batch_size> lobes;
+    for (std::size_t i = 0; i < batch_size; ++i)
+        lobes[i] = ggx_sptd(batch.lanes[i]->surface.alpha, batch.lanes[i]->surface.wo_local);
+    const Pivot<Batch> pivot{gather_vector([&](std::size_t i) { return lobes[i].pivot_local; }),
+                             gather([&](std::size_t i) { return lobes[i].delta; })};
     const Cap<Batch> horizon{{Batch(0.0f), Batch(0.0f), Batch(1.0f)}, Batch(1.0f)};
-    return load(amplitude) * integrate_uniform(pivot, cap, horizon);
+    const Batch amplitude = gather([&](std::size_t i) { return lobes[i].amplitude(); });
+    return amplitude * integrate_uniform(pivot, cap, horizon);
 }
 
 /// One LTC of the table, clipped at the horizon.

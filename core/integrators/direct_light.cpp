@@ -8,8 +8,6 @@
 namespace pivot {
 namespace {
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
 Ray shadow_ray(const SurfacePoint& point, const LightPoint& place) {
     // The light's own surface is no occluder; a mesh that touches it should not become one by rounding.
     return {point.ray_origin(place.wi), place.wi, 0.0f, place.distance_m * (1.0f - 1e-5f)};
@@ -61,39 +59,17 @@ class ShadowQueue {
 struct VertexLanes {
     std::span<const Vertex> vertices;
     JointSurface<Batch> surface;
-    Vec3b position;
-    Frame<Batch> frame;
 
     explicit VertexLanes(std::span<const Vertex> lanes) : vertices(lanes) {
-        surface.wo_local = gather([](const Vertex& v) { return v.point.wo_local; });
-        surface.alpha = gather_number([](const Vertex& v) { return v.surface.alpha; });
-        surface.diffuse = gather_number([](const Vertex& v) { return mean_component(v.surface.diffuse); });
-        surface.fresnel_f0 = gather_number([](const Vertex& v) {
-            return mean_component(v.surface.fresnel.schlick_f0 + v.surface.fresnel.dielectric_f0);
-        });
-        surface.fresnel_f90 = gather_number([](const Vertex& v) {
-            return mean_component(v.surface.fresnel.schlick_f90 + v.surface.fresnel.dielectric_f90);
-        });
-        position = gather([](const Vertex& v) { return v.point.position; });
-        frame = {gather([](const Vertex& v) { return v.point.frame.x; }),
-                 gather([](const Vertex& v) { return v.point.frame.y; }),
-                 gather([](const Vertex& v) { return v.point.frame.z; })};
-    }
-
-    template <class Get>
-    Batch gather_number(const Get& get) const {
-        Lanes lanes;
-        for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = get(vertices[std::min(i, vertices.size() - 1)]);
-        return load(lanes);
-    }
-    template <class Get>
-    Vec3b gather(const Get& get) const {
-        Lanes x, y, z;
-        for (std::size_t i = 0; i < batch_size; ++i) {
-            const Vec3f v = get(vertices[std::min(i, vertices.size() - 1)]);
-            x[i] = v.x, y[i] = v.y, z[i] = v.z;
-        }
-        return {load(x), load(y), load(z)};
+        const auto vertex = [&](std::size_t i) -> const Vertex& { return lanes[std::min(i, lanes.size() - 1)]; };
+        const auto fresnel = [&](std::size_t i) -> const LobeFresnel& { return vertex(i).surface.fresnel; };
+        surface.wo_local = gather_vector([&](std::size_t i) { return vertex(i).point.wo_local; });
+        surface.alpha = gather([&](std::size_t i) { return vertex(i).surface.alpha; });
+        surface.diffuse = gather([&](std::size_t i) { return mean_component(vertex(i).surface.diffuse); });
+        surface.fresnel_f0 =
+            gather([&](std::size_t i) { return mean_component(fresnel(i).schlick_f0 + fresnel(i).dielectric_f0); });
+        surface.fresnel_f90 =
+            gather([&](std::size_t i) { return mean_component(fresnel(i).schlick_f90 + fresnel(i).dielectric_f90); });
     }
 };
 

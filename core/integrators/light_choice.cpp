@@ -60,12 +60,9 @@ void descend(const LightTree& tree, std::int32_t index, const SurfacePoint& poin
     }
 }
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
 }  // namespace
 
 LightProxies::Values light_importance(const SurfacePoint& point, const Surface& surface, const LightProxies& proxies) {
-    const auto broadcast = [](const Vec3f& v) { return Vec3b(Batch(v.x), Batch(v.y), Batch(v.z)); };
     const Vec3b position = broadcast(point.position), wo = broadcast(surface.wo_local);
     const Frame<Batch> frame{broadcast(point.frame.x), broadcast(point.frame.y), broadcast(point.frame.z)};
     const Batch alpha(surface.alpha), diffuse(mean_component(surface.diffuse));

@@ -8,8 +8,6 @@ namespace {
 
 const Vec3f normal_local(0.0f, 0.0f, 1.0f);
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
 }  // namespace
 
 LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const Surface& surface,

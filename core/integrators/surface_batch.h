@@ -25,31 +25,6 @@ struct SurfaceBatch {
     bool has_diffuse = false, has_glossy = false;  // in some lane
 };
 
-/// What a function of each point gives, lane by lane.
-template <class Value>
-Lanes gather_lanes(const SurfaceBatch& batch, const Value& value) {
-    Lanes lanes;
-    for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = value(*batch.lanes[i]);
-    return lanes;
-}
-
-template <class Value>
-Batch gather(const SurfaceBatch& batch, const Value& value) {
-    return load(gather_lanes(batch, value));
-}
-
-template <class Value>
-Vec3b gather_vector(const SurfaceBatch& batch, const Value& value) {
-    Lanes x, y, z;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const Vec3f v = value(*batch.lanes[i]);
-        x[i] = v.x;
-        y[i] = v.y;
-        z[i] = v.z;
-    }
-    return {load(x), load(y), load(z)};
-}
-
 /// How much larger Fresnel's curve is at grazing than at normal incidence, relative.
 inline float fresnel_contrast(const LobeFresnel& f) {
     const Rgb f0 = f.schlick_f0 + f.dielectric_f0, f90 = f.schlick_f90 + f.dielectric_f90;
@@ -64,16 +39,16 @@ inline SurfaceBatch make_batch(std::span<const ShadingPoint> points) {
     SurfaceBatch batch;
     batch.count = points.size();
     for (std::size_t i = 0; i < batch_size; ++i) batch.lanes[i] = &points[std::min(i, points.size() - 1)];
-    batch.position = gather_vector(batch, [](const ShadingPoint& p) { return p.point.position; });
-    batch.frame = {gather_vector(batch, [](const ShadingPoint& p) { return p.point.frame.x; }),
-                   gather_vector(batch, [](const ShadingPoint& p) { return p.point.frame.y; }),
-                   gather_vector(batch, [](const ShadingPoint& p) { return p.point.frame.z; })};
-    batch.lobe.wo_local = gather_vector(batch, [](const ShadingPoint& p) { return p.surface.wo_local; });
-    batch.lobe.alpha =
-        gather(batch, [](const ShadingPoint& p) { return p.surface.has_glossy() ? p.surface.alpha : 1.0f; });
-    batch.lobe.ior = gather(batch, [](const ShadingPoint& p) { return p.surface.fresnel.ior; });
-    batch.lobe.fresnel_contrast =
-        gather(batch, [](const ShadingPoint& p) { return fresnel_contrast(p.surface.fresnel); });
+    const auto point = [&](std::size_t i) -> const SurfacePoint& { return batch.lanes[i]->point; };
+    const auto surface = [&](std::size_t i) -> const Surface& { return batch.lanes[i]->surface; };
+    batch.position = gather_vector([&](std::size_t i) { return point(i).position; });
+    batch.frame = {gather_vector([&](std::size_t i) { return point(i).frame.x; }),
+                   gather_vector([&](std::size_t i) { return point(i).frame.y; }),
+                   gather_vector([&](std::size_t i) { return point(i).frame.z; })};
+    batch.lobe.wo_local = gather_vector([&](std::size_t i) { return surface(i).wo_local; });
+    batch.lobe.alpha = gather([&](std::size_t i) { return surface(i).has_glossy() ? surface(i).alpha : 1.0f; });
+    batch.lobe.ior = gather([&](std::size_t i) { return surface(i).fresnel.ior; });
+    batch.lobe.fresnel_contrast = gather([&](std::size_t i) { return fresnel_contrast(surface(i).fresnel); });
     batch.lobe.has_dielectric = false;
     for (const ShadingPoint* p : batch.lanes) {
         batch.lobe.has_dielectric |= max_component(p->surface.fresnel.dielectric_f90) > 0.0f;

@@ -24,11 +24,6 @@ void require_color(const Rgb& c, const char* message) {
     require(is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f, message);
 }
 
-const SphereLight* sphere_of(const Light& light) {
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->sphere;
-    return std::get_if<SphereLight>(&light);
-}
-
 /// To the near side of the sphere, or to its far side from within.
 float distance_to_sphere(const SphereLight& sphere, const Vec3f& point, const Vec3f& wi) {
     const Vec3f d = sphere.center - point;
@@ -45,8 +40,7 @@ std::optional<LightPoint> area_light_point(const AreaLight& light, const Vec3f& 
 }
 
 std::optional<LightPoint> sample_area(const AreaLight& light, const Vec3f& point, const Vec2f& u) {
-    const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
-    const Vec3f d = light.center + place.x * light.half_u + place.y * light.half_v - point;
+    const Vec3f d = place_on(light, u) - point;
     const float distance_m = length(d);
     if (!(distance_m > 0.0f)) return std::nullopt;
     return area_light_point(light, d / distance_m, distance_m);
@@ -108,11 +102,14 @@ Vec2f area_coordinates(const AreaLight& light, const Vec3f& place) {
     return {dot(offset, across_u) / dot(light.half_u, across_u), dot(offset, across_v) / dot(light.half_v, across_v)};
 }
 
-float spot_falloff(const SpotLight& spot, const Vec3f& wi) {
-    const float inside = -dot(wi, spot.direction) - spot.cos_half_angle;
-    if (inside <= 0.0f) return 0.0f;
-    const float t = std::min(inside / std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f), 1.0f);
-    return t * t * (3.0f - 2.0f * t);
+const SphereLight* sphere_of(const Light& light) {
+    if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->sphere;
+    return std::get_if<SphereLight>(&light);
+}
+
+Vec3f place_on(const AreaLight& light, const Vec2f& u) {
+    const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
+    return light.center + place.x * light.half_u + place.y * light.half_v;
 }
 
 std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
@@ -144,7 +141,7 @@ LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const V
     if (const auto* sun = std::get_if<SunLight>(&light)) return {wi, infinity, sun->radiance, pdf_omega};
     const SphereLight& sphere = *sphere_of(light);
     const auto* spot = std::get_if<SpotLight>(&light);
-    const Rgb radiance = spot ? sphere.radiance * spot_falloff(*spot, wi) : sphere.radiance;
+    const Rgb radiance = spot ? sphere.radiance * spot_falloff(*spot, -dot(wi, spot->direction)) : sphere.radiance;
     return {wi, distance_to_sphere(sphere, point, wi), radiance, pdf_omega};
 }
 

@@ -56,8 +56,19 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
 /// A place in the light's plane along half_u and half_v: within [-1, 1]^2 or the unit disk on the light.
 Vec2f area_coordinates(const AreaLight& light, const Vec3f& place);
 
-/// Falloff of a spot, 0..1, towards a point that sees it along wi.
-float spot_falloff(const SpotLight& spot, const Vec3f& wi);
+/// Falloff of a spot, 0..1, towards a point; cosine: of the angle between there and where the spot shines.
+template <class T>
+T spot_falloff(const SpotLight& spot, T cosine) {
+    const float width = std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f);
+    const T t = clamp01((cosine - T(spot.cos_half_angle)) / T(width));
+    return t * t * (T(3.0f) - T(2.0f) * t);
+}
+
+/// The sphere of a sphere light or a spot; nothing for others.
+const SphereLight* sphere_of(const Light& light);
+
+/// A place on an area light for u in [0, 1)^2, uniform by area.
+Vec3f place_on(const AreaLight& light, const Vec2f& u);
 
 /// The cap that a light covers from a point; nothing for an area light.
 std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point);

@@ -6,13 +6,6 @@
 namespace pivot {
 namespace {
 
-float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
-
-const SphereLight* sphere_of(const Light& light) {
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->sphere;
-    return std::get_if<SphereLight>(&light);
-}
-
 /// Where a light stands that is no sun.
 Vec3f center_of(const Light& light) {
     const SphereLight* sphere = sphere_of(light);

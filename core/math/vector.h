@@ -46,5 +46,6 @@ requires(!std::same_as<M, bool>) Vec3<T> select(const M& condition, const Vec3<T
 }
 
 inline float max_component(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
+inline float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
 
 }  // namespace pivot

@@ -107,6 +107,20 @@ void put_edge(Arc<T>* arcs, const Vec3<T>& from, const Vec3<T>& to, int pieces) 
     }
 }
 
+/// Coordinates along half_u and half_v, which need not be perpendicular, of places in the light's plane.
+template <class T>
+struct PlaneCoordinates {
+    Vec3<T> x, y;
+
+    explicit PlaneCoordinates(const AreaOutline<T>& light) {
+        const Vec3<T> normal = cross(light.half_u, light.half_v);
+        const T scale = T(1) / max(length_squared(normal), tiny<T>);
+        x = cross(light.half_v, normal) * scale;
+        y = cross(normal, light.half_u) * scale;
+    }
+    Vec2<T> of(const Vec3<T>& from_center) const { return {dot(from_center, x), dot(from_center, y)}; }
+};
+
 /// The light's place nearest to where it meets a direction, above the surface.
 template <class T>
 Vec3<T> brightest_place(const Vec3<T>& mirror, const AreaOutline<T>& light, const Vec3<T>& highest) {
@@ -115,9 +129,8 @@ Vec3<T> brightest_place(const Vec3<T>& mirror, const AreaOutline<T>& light, cons
     // A mirror ray that misses the plane meets it far out, on the side it goes to.
     const T sign = select(height < T(0), T(-1), T(1));
     const T distance = abs(height) / max(facing * sign, T(1e-3) * length(normal));
-    const Vec3<T> place = distance * mirror - light.center;
-    const T scale = T(1) / max(length_squared(normal), tiny<T>);
-    T x = dot(cross(place, light.half_v), normal) * scale, y = dot(cross(light.half_u, place), normal) * scale;
+    const Vec2<T> place = PlaneCoordinates<T>(light).of(distance * mirror - light.center);
+    T x = place.x, y = place.y;
     if (light.ellipse) {
         const T shrink = T(0.99) / sqrt(max(sqr(x) + sqr(y), T(0.99 * 0.99)));
         x *= shrink;
@@ -238,15 +251,15 @@ T diffuse_share(const AreaOutline<T>& light, const AreaArcs<Pieces, T>& above) {
     return sum * T(1.0f / pi<float>);
 }
 
-/// Calls visit(omega_i, cos_oh, value): the lobe over the light, F = 1, is the sum of the values. As many points as
-/// Pieces x Steps x Radial x 5.
-template <int Steps, int Radial, size_t Pieces, class T, class Visit>
-void for_each_area_point(const GgxLobe<T>& lobe, const AreaOutline<T>& light, const AreaArcs<Pieces, T>& above,
-                         const Visit& visit) {
+/// As many points as Pieces x Steps x Radial x 5.
+template <int Pieces, int Steps, int Radial, class T>
+LobeSums<T> sum_area_light(const GgxLobe<T>& lobe, const AreaOutline<T>& light) {
+    const auto above = outline_above<Pieces>(light);
     const Vec3<T>& wo = lobe.wo_local;
     const Vec3<T> mirror(-wo.x, -wo.y, wo.z), m_inverse(T(1) / lobe.alpha, T(1) / lobe.alpha, T(1));
     const IsotropicG2<T> g2(wo, lobe.alpha);
     const T scale = T(0.25f / pi<float>) / (sqr(lobe.alpha) * wo.z);
+    LobeSums<T> sums;
     detail::for_each_place<Steps, Radial>(
         light, above, detail::brightest_place(mirror, light, above.highest),
         [&](const Vec3<T>& p) { return m_inverse * (p + length(p) * wo); },
@@ -254,20 +267,8 @@ void for_each_area_point(const GgxLobe<T>& lobe, const AreaOutline<T>& light, co
             const Vec3<T> omega_i = p / sqrt(max(length_squared(p), tiny<T>)), half = wo + omega_i;
             const Vec3<T> w = m_inverse * half;
             const T half2 = max(length_squared(half), tiny<T>), ndf = sqr(half2 / max(length_squared(w), tiny<T>));
-            visit(omega_i, dot(wo, half) / sqrt(half2), scale * ndf * solid_angle * g2(omega_i.z));
+            add(sums, lobe, dot(wo, half) / sqrt(half2), scale * ndf * solid_angle * g2(omega_i.z));
         });
-}
-
-template <int Pieces, int Steps, int Radial, class T>
-LobeSums<T> sum_area_light(const GgxLobe<T>& lobe, const AreaOutline<T>& light) {
-    LobeSums<T> sums;
-    for_each_area_point<Steps, Radial>(lobe, light, outline_above<Pieces>(light),
-                                       [&](const Vec3<T>& /*omega_i*/, const T& cos_oh, const T& value) {
-                                           sums.plain += value;
-                                           sums.schlick += value * schlick_weight(cos_oh);
-                                           if (lobe.has_dielectric)
-                                               sums.dielectric += value * fresnel_dielectric_weight(cos_oh, lobe.ior);
-                                       });
     return sums;
 }
 
@@ -277,9 +278,8 @@ template <class T>
 LobeIntegral<T> integrate_by_lobe(const GgxLobe<T>& lobe, const AreaOutline<T>& light) {
     constexpr int count = 512;
     const Vec3<T> normal = cross(light.half_u, light.half_v);
-    const Vec3<T> across_u = cross(light.half_v, normal), across_v = cross(normal, light.half_u);
+    const detail::PlaneCoordinates<T> coordinates(light);
     const T height = dot(light.center, normal);
-    const T scale_u = T(1) / dot(light.half_u, across_u), scale_v = T(1) / dot(light.half_v, across_v);
     const IsotropicG2<T> g2(lobe.wo_local, lobe.alpha);
     const T share = (g2.view_weight + T(1)) * T(0.5f / float(count));  // 1 / G1, a direction's share
     std::array<T, 2> halves{T(0), T(0)};
@@ -291,14 +291,11 @@ LobeIntegral<T> integrate_by_lobe(const GgxLobe<T>& lobe, const AreaOutline<T>& 
         const T cos_oh = dot(lobe.wo_local, half);
         const Vec3<T> omega_i = T(2) * cos_oh * half - lobe.wo_local;
         const T facing = dot(omega_i, normal), distance = height / select(abs(facing) > tiny<T>, facing, tiny<T>);
-        const Vec3<T> place = distance * omega_i - light.center;
-        const T x = dot(place, across_u) * scale_u, y = dot(place, across_v) * scale_v;
-        const T reach = light.ellipse ? sqr(x) + sqr(y) : max(abs(x), abs(y));
+        const Vec2<T> place = coordinates.of(distance * omega_i - light.center);
+        const T reach = light.ellipse ? dot(place, place) : max(abs(place.x), abs(place.y));
         const T value = select(distance > T(0) && reach < T(1), share * g2(omega_i.z), T(0));
         halves[static_cast<size_t>(i % 2)] += value;
-        sums.plain += value;
-        sums.schlick += value * schlick_weight(cos_oh);
-        if (lobe.has_dielectric) sums.dielectric += value * fresnel_dielectric_weight(cos_oh, lobe.ior);
+        add(sums, lobe, cos_oh, value);
     }
     const T difference = abs(halves[0] - halves[1]) / max(sums.plain, T(least_value));
     return {sums, difference + T(2e-3), detail::number_of<T>(Method::lobe_directions)};

@@ -27,6 +27,14 @@ struct LobeSums {
     T plain = T(0), schlick = T(0), dielectric = T(0);
 };
 
+/// Adds a direction's value for F = 1, under each Fresnel curve.
+template <class T>
+void add(LobeSums<T>& sums, const GgxLobe<T>& lobe, T cos_oh, T value) {
+    sums.plain += value;
+    sums.schlick += value * schlick_weight(cos_oh);
+    if (lobe.has_dielectric) sums.dielectric += value * fresnel_dielectric_weight(cos_oh, lobe.ior);
+}
+
 template <class T>
 LobeSums<T> select(const Mask<T>& condition, const LobeSums<T>& a, const LobeSums<T>& b) {
     return {select(condition, a.plain, b.plain), select(condition, a.schlick, b.schlick),
@@ -66,10 +74,7 @@ struct LobeSummer {
 
     void operator()(const GgxCapPoint<T>& point, T share) {
         const T value = share * point.weight * g2(point.omega_i.z) * falloff(point.omega_i);
-        const T cos_oh = dot(lobe.wo_local, point.half);
-        sums.plain += value;
-        sums.schlick += value * schlick_weight(cos_oh);
-        if (lobe.has_dielectric) sums.dielectric += value * fresnel_dielectric_weight(cos_oh, lobe.ior);
+        add(sums, lobe, dot(lobe.wo_local, point.half), value);
     }
 };
 
@@ -184,21 +189,17 @@ LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& 
         needs_points = needs_points || (barely && falloff_varies);
         needs_slices = needs_slices && !barely;
     }
-    if (any(needs_points)) {
-        const T error_4 = min(error_1 * nearness2 * T(error_left_by_points_4), at_most);
-        take(needs_points, detail::sum_points<4>(g, summer), error_4, Method::points_4);
+    const auto refine = [&]<size_t N>(std::integral_constant<size_t, N>, float error_left, Method method) {
+        if (!any(needs_points)) return;
+        take(needs_points, detail::sum_points<N>(g, summer), min(error_1 * nearness2 * T(error_left), at_most), method);
         needs_points = needs_points && (result.predicted_error > budget || falloff_varies);
-    }
-    if (any(needs_points)) {
-        const T error_8 = min(error_1 * nearness2 * T(error_left_by_points_8), at_most);
-        take(needs_points, detail::sum_points<8>(g, summer), error_8, Method::points_8);
-        needs_points = needs_points && (result.predicted_error > budget || falloff_varies);
-    }
-    if (any(needs_points)) {
-        const T error_16 = min(error_1 * nearness2 * T(error_left_by_points_16), at_most);
-        take(needs_points, detail::sum_points<16>(g, summer), error_16, Method::points_16);
-        const auto is_poor = needs_points && result.predicted_error > budget;
-        if (any(is_poor) && !slices) slices.emplace(ggx_slices(g, horizon));
+    };
+    refine(std::integral_constant<size_t, 4>(), error_left_by_points_4, Method::points_4);
+    refine(std::integral_constant<size_t, 8>(), error_left_by_points_8, Method::points_8);
+    refine(std::integral_constant<size_t, 16>(), error_left_by_points_16, Method::points_16);
+    const auto is_poor = needs_points && result.predicted_error > budget;
+    if (any(is_poor)) {
+        if (!slices) slices.emplace(ggx_slices(g, horizon));
         needs_slices = needs_slices || is_poor;
     }
     if (any(needs_slices)) {

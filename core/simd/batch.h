@@ -34,7 +34,6 @@ using Vec2b = Vec2<Batch>;
 using Vec3b = Vec3<Batch>;
 
 inline bool any(const BatchMask& condition) { return xsimd::any(condition); }
-inline bool all(const BatchMask& condition) { return xsimd::all(condition); }
 
 /// A value per lane, for gathering and scattering.
 using Lanes = std::array<float, batch_size>;
@@ -44,6 +43,30 @@ inline Lanes store(const Batch& batch) {
     Lanes lanes;
     batch.store_unaligned(lanes.data());
     return lanes;
+}
+
+/// The same vector in every lane.
+inline Vec3b broadcast(const Vec3f& v) { return {Batch(v.x), Batch(v.y), Batch(v.z)}; }
+
+/// value(lane), a number, of each lane.
+template <class Value>
+Batch gather(const Value& value) {
+    Lanes lanes;
+    for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = value(i);
+    return load(lanes);
+}
+
+/// value(lane), a vector, of each lane.
+template <class Value>
+Vec3b gather_vector(const Value& value) {
+    Lanes x, y, z;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Vec3f v = value(i);
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+    return {load(x), load(y), load(z)};
 }
 
 }  // namespace pivot
