@@ -17,15 +17,15 @@ T schlick_weight(T cos_theta) {
 /// Reflectance of a dielectric at normal incidence.
 template <class T>
 T f0_from_ior(T ior) {
-    return sqr((ior - T(1)) / (ior + T(1)));
+    return sqr((ior - T(1)) * inverse(ior + T(1)));
 }
 
 /// Unpolarised reflectance of a dielectric boundary for light from outside, cos_theta >= 0 and ior >= 1.
 template <class T>
 T fresnel_dielectric(T cos_theta, T ior) {
     const T g = sqrt(sqr(ior) - T(1) + sqr(cos_theta));
-    const T s = (g - cos_theta) / (g + cos_theta);
-    const T p = (cos_theta * (g + cos_theta) - T(1)) / (cos_theta * (g - cos_theta) + T(1));
+    const T s = (g - cos_theta) * inverse(g + cos_theta);
+    const T p = (cos_theta * (g + cos_theta) - T(1)) * inverse(cos_theta * (g - cos_theta) + T(1));
     return T(0.5) * sqr(s) * (T(1) + sqr(p));
 }
 
@@ -33,7 +33,7 @@ T fresnel_dielectric(T cos_theta, T ior) {
 template <class T>
 T fresnel_dielectric_weight(T cos_theta, T ior) {
     const T f0 = f0_from_ior(ior);
-    return clamp01((fresnel_dielectric(cos_theta, ior) - f0) / (T(1) - f0));
+    return clamp01((fresnel_dielectric(cos_theta, ior) - f0) * inverse(T(1) - f0));
 }
 
 }  // namespace pivot

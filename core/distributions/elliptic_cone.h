@@ -31,12 +31,20 @@ struct GgxCap {
     T a1, a2;              // tangents of the cone's half-angles, towards d and p
     Vec2<T> velocity;      // of the boost
     T gamma;               // 1 / sqrt(1 - velocity^2)
-    Vec2<T> major;         // direction of the longer semi-axis, mu1's, after the boost
-    T mu, mu1, mu2;        // the eigenvalues of S / scale^2
-    T scale;               // |M^-1 b|
+    T mu;                  // the positive eigenvalue of S, over scale^2
+    T inverse_scale;       // 1 / |M^-1 b|, the unit of mu, mu1 and mu2
+    T det;                 // sqrt(mu mu1 mu2)
+    T lift;                // 1 / (|M^-1 b| sqrt(mu))
     T form_factor;         // F, in [0, 1]
     T integral;            // of D(h) / (4 cos_o) over the cap, without masking, Fresnel and horizon; 0 if not valid
     Mask<T> valid;  // the half vectors make a cone and stay above the surface: else cut the cap, or use quadrature
+};
+
+/// The mapped cone's ellipse across e3, after the boost.
+template <class T>
+struct GgxAxes {
+    Vec2<T> major;      // direction of the longer semi-axis
+    Vec2<T> semi_axes;  // tangents of the half-angles: sqrt(mu1 / mu), sqrt(mu2 / mu)
 };
 
 /// One direction inside the cap.
@@ -44,28 +52,50 @@ template <class T>
 struct GgxCapPoint {
     Vec3<T> omega_i, half;  // unit
     T weight;               // D(h) / (4 cos_o) / pdf_omega: the caller multiplies masking and Fresnel
+    T cos_oh;
     T pdf_omega;
 };
 
 namespace detail {
 
-/// The positive root, at most 1, of m^3 - trace m^2 + minors m - det2, all of whose roots are real and two negative.
-/// Starts above it, from 1 or without m^3 where that helps, and takes Laguerre's steps: four reach the rounding of a
-/// double, two that of a float.
+/// The positive root, at most 1, of m^3 - trace m^2 + minors m - det2, all of whose roots are real and two negative:
+/// Laguerre's steps from above it. Each cubes the error, which a lobe much wider than the light starts with almost none
+/// of: so lanes say when they are done.
 template <class T>
 T positive_root(T trace, T minors, T det2) {
-    const T r = safe_sqrt(minors * minors - T(4) * trace * det2);
-    const T quadratic = select(minors > T(0), T(2) * det2 / (minors + r), (r - minors) / (T(-2) * trace));
-    T m = select(trace < T(0), min(quadratic, T(1)), T(1));
-    constexpr int steps = std::numeric_limits<T>::digits > 24 ? 4 : 2;
-    for (int i = 0; i < steps; ++i) {
+    T m = T(1);
+    if (const auto is_far = trace < T(0); any(is_far)) {
+        // there without m^3
+        const T r = safe_sqrt(minors * minors - T(4) * trace * det2);
+        const T quadratic = select(minors > T(0), T(2) * det2 / (minors + r), (r - minors) / (T(-2) * trace));
+        m = select(is_far, min(quadratic, T(1)), m);
+    }
+    const T done = T(std::numeric_limits<T>::digits > 24 ? 1e-6 : 1e-3);
+    for (int i = 0; i < 5; ++i) {
         const T f = ((m - trace) * m + minors) * m - det2;
         const T slope = (T(3) * m - T(2) * trace) * m + minors;
         const T bend = T(6) * m - T(2) * trace;
-        m -= T(3) * f / (slope + safe_sqrt(T(4) * slope * slope - T(6) * f * bend));
+        const T step = T(3) * f / (slope + safe_sqrt(T(4) * slope * slope - T(6) * f * bend));
+        m -= step;
+        if (!any(abs(step) > done * m)) break;
     }
     return m;
 }
+
+/// Dot products of a cone's frame under diag(x, y, 1), of x^2 and y^2.
+template <class T>
+struct FrameProducts {
+    T bb, dd, pp, bd, bp;
+
+    FrameProducts(const GgxCap<T>& g, T x2, T y2) {
+        const Vec3<T> m2(x2, y2, T(1)), b = m2 * g.b;
+        bb = dot(b, g.b);
+        bd = dot(b, g.d);
+        bp = dot(b, g.p);
+        dd = dot(m2 * g.d, g.d);
+        pp = dot(m2 * g.p, g.p);
+    }
+};
 
 }  // namespace detail
 
@@ -73,7 +103,6 @@ T positive_root(T trace, T minors, T det2) {
 template <class T>
 GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
     const T least = tiny<T> / std::numeric_limits<T>::epsilon();
-    const Vec3<T> m(alpha_x, alpha_y, T(1)), m_inverse(T(1) / alpha_x, T(1) / alpha_y, T(1));
     GgxCap<T> g;
     g.cap = cap;
     g.wo = wo;
@@ -82,103 +111,127 @@ GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
 
     const Vec3<T> sum = wo + cap.axis, difference = wo - cap.axis;
     const T sum2 = length_squared(sum), difference2 = length_squared(difference);
-    g.cos_half = T(0.5) * sqrt(sum2);
-    g.sin_half = T(0.5) * sqrt(difference2);
-    g.b = sum / max(T(2) * g.cos_half, least);
-    const Frame<T> frame = frame_from_z(g.b);
-    const Vec3<T> across = difference - dot(difference, g.b) * g.b;
-    const T across2 = length_squared(across);
-    g.d = select(across2 > least, across / sqrt(max(across2, least)), frame.x);
-    g.p = cross(g.b, g.d);
+    const T inverse_sum = inverse_sqrt(max(sum2, least));
+    g.cos_half = T(0.5) * sum2 * inverse_sum;
+    g.sin_half = T(0.5) * difference2 * inverse_sqrt(max(difference2, least));
+    g.b = sum * inverse_sum;
+    const Vec3<T> aside = cross(sum, difference);
+    const T aside2 = length_squared(aside);
+    g.p = select(aside2 > least, aside * inverse_sqrt(max(aside2, least)), frame_from_z(g.b).y);
+    g.d = cross(g.p, g.b);
     const T room = T(0.5) * sum2 - cap.versine;
-    const T a1_2 = cap.versine / (T(2) - cap.versine), a2_2 = cap.versine / max(room, least);
+    const T a1_2 = cap.versine * inverse(T(2) - cap.versine), a2_2 = cap.versine * inverse(max(room, least));
     g.a1 = sqrt(a1_2);
     g.a2 = sqrt(a2_2);
     g.valid = room > T(0) && g.b.z > T(0) && sqr(g.b.z) > a1_2 * sqr(g.d.z) + a2_2 * sqr(g.p.z);
 
-    // B, A1 and A2 in units of |M^-1 b|; cross products of such vectors are those of M b, M d, M p
-    g.scale = length(m_inverse * g.b);
-    const Vec3<T> B = m_inverse * g.b / g.scale, A1 = m_inverse * g.d * (g.a1 / g.scale),
-                  A2 = m_inverse * g.p * (g.a2 / g.scale);
-    const T area = T(1) / (alpha_x * alpha_y * g.scale * g.scale);
-    const Vec3<T> Mb = m * g.b * area, Md = m * g.d * area, Mp = m * g.p * area;
-    const T a12 = a1_2 * a2_2, A1_2 = length_squared(A1), A2_2 = length_squared(A2);
-    const T cross12 = a12 * length_squared(Mb);
-    const T trace = T(1) - A1_2 - A2_2;
-    const T minors = cross12 - a1_2 * length_squared(Mp) - a2_2 * length_squared(Md);
-    const T det = g.a1 * g.a2 * area / g.scale;
-    g.mu = detail::positive_root(trace, minors, det * det);
+    // B, A1, A2 are b, a1 d, a2 p under M^-1, over |M^-1 b|; cross products of two of them are those of the third under M
+    const T inverse_x = inverse(alpha_x), inverse_y = inverse(alpha_y);
+    const detail::FrameProducts<T> under_inverse(g, sqr(inverse_x), sqr(inverse_y)),
+        under_m(g, sqr(alpha_x), sqr(alpha_y));
+    g.inverse_scale = inverse_sqrt(under_inverse.bb);
+    const T unit2 = sqr(g.inverse_scale), area = inverse_x * inverse_y * unit2, area2 = sqr(area);
+    const T squares = unit2 * (a1_2 * under_inverse.dd + a2_2 * under_inverse.pp);  // A1^2 + A2^2
+    const T cross12 = area2 * a1_2 * a2_2 * under_m.bb;                             // (A1 x A2)^2
+    const T trace = T(1) - squares, minors = cross12 - area2 * (a1_2 * under_m.pp + a2_2 * under_m.dd);
+    g.det = g.a1 * g.a2 * area * g.inverse_scale;
+    g.mu = detail::positive_root(trace, minors, sqr(g.det));
 
-    const T divisor = g.mu * (g.mu + A1_2 + A2_2) + cross12;
-    g.velocity =
-        Vec2<T>(g.a1 * a2_2 * dot(Mb, Md) - g.mu * dot(A1, B), g.a2 * a1_2 * dot(Mb, Mp) - g.mu * dot(A2, B)) / divisor;
-    g.gamma = T(1) / sqrt(max(T(1) - dot(g.velocity, g.velocity), std::numeric_limits<T>::epsilon()));
+    const T mu_unit2 = g.mu * unit2;
+    g.velocity = Vec2<T>(g.a1 * (area2 * a2_2 * under_m.bd - mu_unit2 * under_inverse.bd),
+                         g.a2 * (area2 * a1_2 * under_m.bp - mu_unit2 * under_inverse.bp)) *
+                 inverse(g.mu * (g.mu + squares) + cross12);
+    g.gamma = inverse_sqrt(max(T(1) - dot(g.velocity, g.velocity), std::numeric_limits<T>::epsilon()));
 
-    // the boosted semi-axes, which are across e3, and their larger eigenvector
+    g.form_factor = g.det * inverse_sqrt(max(sqr(g.mu) * (g.mu + (g.mu - trace)) + sqr(g.det), tiny<T>));
+    g.lift = g.inverse_scale * inverse_sqrt(g.mu);
+    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
+    g.integral = select(g.valid, g.form_factor * g.gamma * center * g.lift * inverse(wo.z), T(0));
+    return g;
+}
+
+/// Of the semi-axes, boosted: they are across e3.
+template <class T>
+GgxAxes<T> ellipse_axes(const GgxCap<T>& g) {
+    const Vec3<T> m_inverse = Vec3<T>(inverse(g.alpha_x), inverse(g.alpha_y), T(1)) * g.inverse_scale;
+    const Vec3<T> B = m_inverse * g.b, A1 = m_inverse * g.d * g.a1, A2 = m_inverse * g.p * g.a2;
     const Vec3<T> shift = g.velocity.x * A1 + g.velocity.y * A2;
-    const Vec3<T> along = g.gamma * (B + shift) - (g.gamma / (g.gamma + T(1))) * shift;
+    const Vec3<T> along = g.gamma * (B + shift) - (g.gamma * inverse(g.gamma + T(1))) * shift;
     const Vec3<T> E1 = A1 + g.velocity.x * along, E2 = A2 + g.velocity.y * along;
     const T half_difference = (length_squared(E1) - length_squared(E2)) * T(0.5), mixed = dot(E1, E2);
-    const T radius = max(sqrt(half_difference * half_difference + mixed * mixed), least);
-    g.mu1 = (length_squared(E1) + length_squared(E2)) * T(0.5) + radius;
-    g.mu2 = det * det / (g.mu * g.mu1);
+    const T radius = max(sqrt(sqr(half_difference) + sqr(mixed)), tiny<T> / std::numeric_limits<T>::epsilon());
+    const T mu1 = (length_squared(E1) + length_squared(E2)) * T(0.5) + radius;
     const T larger = sqrt(T(0.5) + abs(half_difference) / (T(2) * radius)), smaller = mixed / (T(2) * radius * larger);
-    g.major = {select(half_difference > T(0), larger, smaller), select(half_difference > T(0), smaller, larger)};
-
-    g.form_factor = det / sqrt(g.mu * (g.mu * (g.mu + (g.mu - trace)) + det * det / g.mu));
-    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
-    g.integral = select(g.valid, g.form_factor * g.gamma * center / (g.scale * sqrt(g.mu) * wo.z), T(0));
-    return g;
+    const T longer = sqrt(mu1 / g.mu);
+    return {{select(half_difference > T(0), larger, smaller), select(half_difference > T(0), smaller, larger)},
+            {longer, g.det / (g.mu * sqrt(g.mu) * longer)}};
 }
 
 namespace detail {
 
-/// Of a place in the cone after the boost, and its direction's cosine to e3.
+/// Of a place in the cone, the boost undone: `time` is the boosted 1, cos_e3 the direction's cosine.
+template <class T>
+GgxCapPoint<T> point_in_cone(const GgxCap<T>& g, const Vec2<T>& at, T time, T cos_e3) {
+    const T x = at.x * g.a1, y = at.y * g.a2, bend = x * x + y * y, length2 = T(1) + bend;
+    const T cos_oh = g.cos_half + x * g.sin_half;  // times |h|
+    const T inverse_length = inverse_sqrt(length2);
+
+    const Vec3<T> tilt = x * g.d + y * g.p;
+    const Vec3<T> offset =
+        ((x * g.sin_half - g.cos_half * bend) * g.b + cos_oh * tilt) * (T(2) * sqr(inverse_length));
+    const T stretch = time * g.lift;  // |M w| / (|h| cos_e3)
+    const T jacobian = stretch * cos_e3 * length2 * inverse_length;
+    const T pdf = cos_e3 * jacobian * jacobian * jacobian /
+                  (T(4) * pi<T> * g.form_factor * g.alpha_x * g.alpha_y * cos_oh * inverse_length);
+    return {g.cap.axis + offset, (g.b + tilt) * inverse_length, g.form_factor * stretch * cos_oh * inverse(g.wo.z),
+            cos_oh * inverse_length, pdf};
+}
+
+/// Of a place in the boosted cone.
 template <class T>
 GgxCapPoint<T> boosted_point(const GgxCap<T>& g, const Vec2<T>& boosted, T cos_e3) {
     const T approach = dot(g.velocity, boosted), time = g.gamma * (T(1) + approach);
-    const Vec2<T> at = (boosted + g.velocity * (g.gamma * (T(1) + approach * g.gamma / (g.gamma + T(1))))) / time;
-    const T x = at.x * g.a1, y = at.y * g.a2, bend = x * x + y * y, length2 = T(1) + bend;
-    const T cos_oh = g.cos_half + x * g.sin_half;  // times |h|
-
-    const Vec3<T> tilt = x * g.d + y * g.p;
-    const Vec3<T> offset = ((x * g.sin_half - g.cos_half * bend) * g.b + cos_oh * tilt) * (T(2) / length2);
-    const T stretch = time / (g.scale * sqrt(g.mu));  // |M w| / (|h| cos_e3)
-    const T inverse_length = T(1) / sqrt(length2);
-    const T jacobian = stretch * cos_e3 / inverse_length;
-    const T pdf = cos_e3 * jacobian * jacobian * jacobian /
-                  (T(4) * pi<T> * g.form_factor * g.alpha_x * g.alpha_y * cos_oh * inverse_length);
-    return {g.cap.axis + offset, (g.b + tilt) * inverse_length, g.form_factor * stretch * cos_oh / g.wo.z, pdf};
+    const T along = g.gamma * (T(1) + approach * g.gamma * inverse(g.gamma + T(1)));
+    return point_in_cone(g, (boosted + g.velocity * along) * inverse(time), time, cos_e3);
 }
 
 }  // namespace detail
 
+/// The highlight's centre.
+template <class T>
+GgxCapPoint<T> center_point(const GgxCap<T>& g) {
+    return detail::point_in_cone(g, g.velocity, g.gamma, T(1));
+}
+
 /// The point at (x, y) of the unit disk: uniform points of the disk, and rules for it, make points of density
 /// pdf_omega. (0, 0) is the highlight's centre. `room` is 1 - x^2 - y^2.
 template <class T>
-GgxCapPoint<T> disk_point(const GgxCap<T>& g, const Vec2<T>& xy, T room) {
-    const T k1 = g.mu / (g.mu + g.mu1), k2 = g.mu / (g.mu + g.mu2);
-    const T major = xy.x * g.major.x + xy.y * g.major.y, minor = xy.y * g.major.x - xy.x * g.major.y;
-    const T cos_e3 = sqrt(room + k1 * sqr(major) + k2 * sqr(minor));
-    const T along = major * sqrt(k1) / cos_e3, across = minor * sqrt(k2) / cos_e3;
-    return detail::boosted_point(g, {along * g.major.x - across * g.major.y, along * g.major.y + across * g.major.x},
-                                 cos_e3);
+GgxCapPoint<T> disk_point(const GgxCap<T>& g, const GgxAxes<T>& axes, const Vec2<T>& xy, T room) {
+    const T k1 = inverse(T(1) + sqr(axes.semi_axes.x)), k2 = inverse(T(1) + sqr(axes.semi_axes.y));
+    const T major = xy.x * axes.major.x + xy.y * axes.major.y, minor = xy.y * axes.major.x - xy.x * axes.major.y;
+    const T cos2_e3 = room + k1 * sqr(major) + k2 * sqr(minor), inverse_e3 = inverse_sqrt(max(cos2_e3, tiny<T>));
+    const T along = major * sqrt(k1) * inverse_e3, across = minor * sqrt(k2) * inverse_e3;
+    return detail::boosted_point(
+        g, {along * axes.major.x - across * axes.major.y, along * axes.major.y + across * axes.major.x},
+        cos2_e3 * inverse_e3);
 }
 
 /// A direction in the cap by D(h), up to a smooth weight.
 template <class T>
 GgxCapPoint<T> sample(const GgxCap<T>& g, const Vec2<T>& u) {
     const T radius = sqrt(u.x), phi = T(2) * pi<T> * u.y;
-    return disk_point(g, Vec2<T>(radius * cos(phi), radius * sin(phi)), T(1) - u.x);
+    return disk_point(g, ellipse_axes(g), Vec2<T>(radius * cos(phi), radius * sin(phi)), T(1) - u.x);
 }
 
 /// A fixed rule of N = 1, 4, 8 or 16 points. Weigh a smooth factor f by
 /// integral * sum(weight f) / sum(weight): exact where f is constant.
 template <size_t N, class T>
 std::array<GgxCapPoint<T>, N> points(const GgxCap<T>& g) {
+    if constexpr (N == 1) return {center_point(g)};
     std::array<GgxCapPoint<T>, N> result;
+    const GgxAxes<T> axes = ellipse_axes(g);
     const std::array<Vec2<T>, N> rule = disk_rule<T, N>();
-    for (size_t i = 0; i < N; ++i) result[i] = disk_point(g, rule[i], T(1) - dot(rule[i], rule[i]));
+    for (size_t i = 0; i < N; ++i) result[i] = disk_point(g, axes, rule[i], T(1) - dot(rule[i], rule[i]));
     return result;
 }
 
@@ -192,7 +245,7 @@ T pdf_omega_inside(const GgxCap<T>& g, const Vec3<T>& omega_i) {
     const T length2 = length_squared(h), cos_oh = dot(g.wo, h);
     const T stretched2 = sqr(h.x / g.alpha_x) + sqr(h.y / g.alpha_y) + sqr(h.z);
     const T time = g.gamma * (T(1) - (g.velocity.x * x + g.velocity.y * y)) * along;
-    const T cos_e3 = time * g.scale * sqrt(g.mu / stretched2);
+    const T cos_e3 = time / (g.lift * sqrt(stretched2));
     const T jacobian2 = length2 / stretched2;  // |M w|^2
     const T pdf = cos_e3 * jacobian2 * sqrt(jacobian2 * length2) /
                   (T(4) * pi<T> * g.form_factor * g.alpha_x * g.alpha_y * cos_oh);

@@ -23,7 +23,7 @@ namespace pivot {
 template <class T>
 struct GgxSlices {
     GgxCap<T> chart;
-    Vec2<T> semi_axes;         // of the ellipse, along the chart's major and minor axes
+    GgxAxes<T> axes;           // of the ellipse
     Vec2<T> across, up;        // axes of p: along the chord between the rims' crossings, and across it
     std::array<T, 6> ellipse;  // of 1, x, y, x^2, xy, y^2 in those axes: < 0 in the chart's cap
     std::array<T, 6> other;    // > 0 in the other cap
@@ -79,7 +79,8 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
     GgxSlices<T> s;
     s.chart = chart;
     const Cap<T>& cap = chart.cap;
-    s.semi_axes = {sqrt(chart.mu1 / chart.mu), sqrt(chart.mu2 / chart.mu)};
+    s.axes = ellipse_axes(chart);
+    const auto& [along_major, semi_axes] = s.axes;
 
     // where the rims cross
     const Separation<T> between = separation(cap.axis, other.axis);
@@ -95,8 +96,8 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
             chart, T(1), Vec2<T>(dot(offset, chart.d) / (chart.a1 * along), dot(offset, chart.p) / (chart.a2 * along)),
             T(-1));
         const T scale = T(1) / sqrt(max(sqr(p.y) + sqr(p.z), tiny<T>));  // onto the rim
-        return Vec2<T>((p.y * chart.major.x + p.z * chart.major.y) * scale * s.semi_axes.x,
-                       (p.z * chart.major.x - p.y * chart.major.y) * scale * s.semi_axes.y);
+        return Vec2<T>((p.y * along_major.x + p.z * along_major.y) * scale * semi_axes.x,
+                       (p.z * along_major.x - p.y * along_major.y) * scale * semi_axes.y);
     };
     const Vec2<T> first = crossing_at(T(-1)), second = crossing_at(T(1)), chord = second - first;
     const T chord2 = dot(chord, chord);
@@ -116,17 +117,17 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
                v.z * (q02 * u.x + q12 * u.y + q22 * u.z);
     };
     const auto cone_direction = [&](const Vec2<T>& axis) {
-        const T major = axis.x / s.semi_axes.x, minor = axis.y / s.semi_axes.y;
+        const T major = axis.x / semi_axes.x, minor = axis.y / semi_axes.y;
         return detail::boost(
             chart, T(0),
-            Vec2<T>(major * chart.major.x - minor * chart.major.y, major * chart.major.y + minor * chart.major.x),
+            Vec2<T>(major * along_major.x - minor * along_major.y, major * along_major.y + minor * along_major.x),
             T(1));
     };
     s.up = {-s.across.y, s.across.x};
     const Vec3<T> o = detail::boost(chart, T(1), Vec2<T>(T(0)), T(1)), u = cone_direction(s.across),
                   v = cone_direction(s.up);
     s.other = {form(o, o), T(2) * form(o, u), T(2) * form(o, v), form(u, u), T(2) * form(u, v), form(v, v)};
-    const T ix = T(1) / sqr(s.semi_axes.x), iy = T(1) / sqr(s.semi_axes.y);
+    const T ix = T(1) / sqr(semi_axes.x), iy = T(1) / sqr(semi_axes.y);
     s.ellipse = {T(-1),
                  T(0),
                  T(0),
@@ -138,7 +139,7 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
     s.is_cut = has_chord;
     s.none = !has_chord && !(center > T(0));
     const T x0 = dot(first, s.across), x1 = dot(second, s.across);
-    const T half_width = sqrt(sqr(s.across.x * s.semi_axes.x) + sqr(s.across.y * s.semi_axes.y));
+    const T half_width = sqrt(sqr(s.across.x * semi_axes.x) + sqr(s.across.y * semi_axes.y));
     const T left = select(has_chord, min(x0, x1), -half_width), right = select(has_chord, max(x0, x1), half_width);
     T low = left, high = right;
     const auto extend = [&](T x, const std::array<T, 6>& curve, const std::array<T, 6>& within, T sign) {
@@ -194,14 +195,14 @@ T share_cut_off(const GgxSlices<T>& s) {
     const T slope = sqrt(sqr(q[1]) + sqr(q[2])), bend = abs(q[3]) + abs(q[4]) + abs(q[5]);
     const T distance = T(2) * q[0] / (slope + sqrt(sqr(slope) + T(4) * abs(q[0]) * bend));
     const T beyond = T(0.5) / (T(1) + sqr(distance) + distance * sqrt(T(1) + sqr(distance)));  // (1 - sin atan) / 2
-    const T within = sqrt((T(1) + T(1) / sqr(s.semi_axes.x)) * (T(1) + T(1) / sqr(s.semi_axes.y)));
+    const T within = sqrt((T(1) + T(1) / sqr(s.axes.semi_axes.x)) * (T(1) + T(1) / sqr(s.axes.semi_axes.y)));
     return select(s.is_cut, select(q[0] > T(0), min(beyond * within, T(1)), T(1)), T(0));
 }
 
 /// Calls visit(point, share): the integral of D(h) f / (4 cos_o) is the sum of share * point.weight * f.
 template <int lines, int nodes, class T, class Visit>
 void for_each_slice_point(const GgxSlices<T>& s, const Visit& visit) {
-    const Vec2<T> s2 = s.semi_axes * s.semi_axes;
+    const Vec2<T> s2 = s.axes.semi_axes * s.axes.semi_axes;
     const T density = sqrt((T(1) + T(1) / s2.x) * (T(1) + T(1) / s2.y)) / pi<T>;
     const auto slice = [&](T x, T width) {
         // y = r tan of an angle spreads the lobe evenly; t is the tangent of its half
@@ -213,8 +214,8 @@ void for_each_slice_point(const GgxSlices<T>& s, const Visit& visit) {
                 const T t = t0 + t_width * T(node.x), t2 = sqr(t), inverse = T(1) / (T(1) + t2);
                 const T cosine = (T(1) - t2) * inverse, y = T(2) * t * r / (T(1) - t2);
                 const Vec2<T> p = x * s.across + y * s.up;
-                const T cos_e3 = cosine / r, major = p.x / s.semi_axes.x, minor = p.y / s.semi_axes.y;
-                const Vec2<T>& axis = s.chart.major;
+                const T cos_e3 = cosine / r, major = p.x / s.axes.semi_axes.x, minor = p.y / s.axes.semi_axes.y;
+                const Vec2<T>& axis = s.axes.major;
                 visit(detail::boosted_point(s.chart, {major * axis.x - minor * axis.y, major * axis.y + minor * axis.x},
                                             cos_e3),
                       density * width * t_width * T(2 * node.weight) * inverse * sqr(cosine));

@@ -196,6 +196,7 @@ void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool 
         }
     };
     const Frame<Batch> frame = frame_from_z(cap_.axis);
+    const GgxAxes<Batch> axes = wants_glossy ? ellipse_axes(exact_->chart) : GgxAxes<Batch>{};
     for (std::uint32_t k = range.begin; k < range.end; ++k) {
         if (wants_diffuse) {
             const Vec2f xy = sample_disk(points.point(PointSet::light_diffuse, k, range.all));
@@ -204,7 +205,7 @@ void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool 
         }
         if (wants_glossy) {
             const Vec2f xy = sample_disk(points.point(PointSet::light_glossy, k, range.all));
-            const auto point = lobe_point(*exact_, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
+            const auto point = lobe_point(*exact_, axes, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
             add(point.omega_i, point.value * falloff(point.omega_i), true);
         }
     }

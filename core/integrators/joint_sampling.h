@@ -66,7 +66,7 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
     const T u_x = select(is_glossy, u.x / max(p_glossy, tiny<T>), (u.x - p_glossy) / max(T(1) - p_glossy, tiny<T>));
     const T radius = sqrt(u_x), phi = T(2) * pi<T> * u.y;
     const Vec2<T> disk(radius * cos(phi), radius * sin(phi));
-    const GgxCapPoint<T> lit = disk_point(g, disk, T(1) - u_x);
+    const GgxCapPoint<T> lit = disk_point(g, ellipse_axes(g), disk, T(1) - u_x);
 
     JointSample<T> s;
     s.wi_local = select(is_glossy, lit.omega_i, detail::project_to_cap(cap, disk, T(1) - u_x));

@@ -17,7 +17,7 @@ struct Frame {
 template <class T>
 Frame<T> frame_from_z(const Vec3<T>& z) {
     const T sign = select(z.z < T(0), T(-1), T(1));
-    const T a = T(-1) / (sign + z.z);
+    const T a = -inverse(sign + z.z);
     const T b = z.x * z.y * a;
     return {{T(1) + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }

@@ -50,6 +50,19 @@ constexpr T select(bool condition, T a, T b) {
 /// Whether a condition holds in some lane: what a branch around work for all lanes asks.
 constexpr bool any(bool condition) { return condition; }
 
+/// 1 / x of a normal number. A batch of floats has it and the next to a unit or two in the last place, faster than it
+/// divides: for the rest, a / b.
+template <class T>
+T inverse(T x) {
+    return T(1) / x;
+}
+
+/// 1 / sqrt(x) of a normal number.
+template <class T>
+T inverse_sqrt(T x) {
+    return T(1) / sqrt(x);
+}
+
 template <class T>
 constexpr T sqr(T x) {
     return x * x;

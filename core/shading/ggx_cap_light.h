@@ -54,13 +54,14 @@ struct IsotropicG2 {
     T alpha2, view_weight;  // 1 + 2 Lambda(wo)
 
     IsotropicG2(const Vec3<T>& wo, T alpha)
-        : alpha2(sqr(alpha)), view_weight(T(1) + T(2) * ggx_lambda(wo, alpha, alpha)) {}
+        : alpha2(sqr(alpha)), view_weight(sqrt(sqr(wo.z) + alpha2 * (sqr(wo.x) + sqr(wo.y))) * inverse(wo.z)) {}
 
     T operator()(T z) const {
         const T above = max(z, T(0));
-        return T(2) * above / (view_weight * above + sqrt(sqr(above) + alpha2 * (T(1) - min(sqr(above), T(1)))));
+        const T cosine2 = sqr(above), root = sqrt(cosine2 + alpha2 * (T(1) - min(cosine2, T(1))));
+        return T(2) * above * inverse(view_weight * above + root);
     }
-    T at_most() const { return T(2) / (view_weight + T(1)); }
+    T at_most() const { return T(2) * inverse(view_weight + T(1)); }
 };
 
 namespace detail {
@@ -74,7 +75,7 @@ struct LobeSummer {
 
     void operator()(const GgxCapPoint<T>& point, T share) {
         const T value = share * point.weight * g2(point.omega_i.z) * falloff(point.omega_i);
-        add(sums, lobe, dot(lobe.wo_local, point.half), value);
+        add(sums, lobe, point.cos_oh, value);
     }
 };
 
@@ -135,8 +136,8 @@ struct LobePoint {
 };
 
 template <class T>
-LobePoint<T> lobe_point(const GgxCapLight<T>& light, const Vec2<T>& xy, T room) {
-    const GgxCapPoint<T> point = disk_point(light.chart, xy, room);
+LobePoint<T> lobe_point(const GgxCapLight<T>& light, const GgxAxes<T>& axes, const Vec2<T>& xy, T room) {
+    const GgxCapPoint<T> point = disk_point(light.chart, axes, xy, room);
     const auto is_seen = !light.surrounds || contains(light.cap, point.omega_i);
     return {point.omega_i, select(is_seen, point.weight * light.g2(point.omega_i.z), T(0))};
 }
@@ -150,7 +151,7 @@ LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& 
     const Cap<T> horizon{Vec3<T>(T(0), T(0), T(1)), T(1)};
     const T z = cap.axis.z, sine = sqrt(sin2_half_angle(cap));
     const detail::LobeSummer<T, Falloff> summer{lobe, g2, falloff, {}};
-    const GgxCapPoint<T> center = disk_point(g, Vec2<T>(T(0)), T(1));
+    const GgxCapPoint<T> center = center_point(g);
     LobeIntegral<T> result;
     {
         detail::LobeSummer<T, Falloff> one = summer;
@@ -160,7 +161,7 @@ LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& 
     // Masked as little as can be, all of the cap's half vectors are this.
     const T at_most = center.weight * g2.at_most() * T(1 / least_value);
     const T center_z = max(center.omega_i.z, T(0)), center_g2 = g2(center_z);
-    const T cos_oh = dot(lobe.wo_local, center.half);
+    const T cos_oh = center.cos_oh;
     const T turn = T(0.5) * g.sin_half * sine, fresnel_gap = T(1) - cos_oh;
     const T fresnel_bend = sqr(turn) * T(10) * lobe.fresnel_contrast * fresnel_gap * sqr(fresnel_gap) /
                            (T(1) + lobe.fresnel_contrast * schlick_weight(cos_oh));

@@ -38,7 +38,7 @@ inline constexpr std::array<std::string_view, 13> method_names{
 template <class T>
 T error_of_point(T alpha, T versine, T z, T g2) {
     const T alpha2 = sqr(alpha), root = sqrt(sqr(z) + alpha2 * (T(1) - sqr(z)));
-    return T(0.3) * versine * alpha2 * g2 * (T(1) + z) / max(z * sqr(z) * root, tiny<T>);
+    return T(0.3) * versine * alpha2 * g2 * (T(1) + z) * inverse(max(z * sqr(z) * root, tiny<T>));
 }
 
 /// What 4, 8 and 16 points leave of that, times nearness^2: sin psi over the sine of the centre's elevation, squared,

@@ -30,6 +30,18 @@ inline const Batch pi<Batch>(pi<float>);
 template <>
 inline const Batch tiny<Batch>(tiny<float>);
 
+// The instruction set's estimate and a step of Newton's method.
+template <>
+inline Batch inverse(Batch x) {
+    const Batch estimate = xsimd::reciprocal(x);
+    return estimate + estimate * (Batch(1.0f) - x * estimate);
+}
+template <>
+inline Batch inverse_sqrt(Batch x) {
+    const Batch estimate = xsimd::rsqrt(x);
+    return estimate + estimate * (Batch(0.5f) - Batch(0.5f) * x * estimate * estimate);
+}
+
 using Vec2b = Vec2<Batch>;
 using Vec3b = Vec3<Batch>;
 

@@ -102,8 +102,8 @@ int main() {
     });
     measure("the exact core with one point and G2 and both Fresnel curves", [&](const Neighbours& n) {
         const GgxCap<Batch> g = ggx_cap(n.lobe.wo_local, n.cap, n.lobe.alpha, n.lobe.alpha);
-        const GgxCapPoint<Batch> point = disk_point(g, {Batch(0.0f), Batch(0.0f)}, Batch(1.0f));
-        const Batch cos_oh = dot(n.lobe.wo_local, point.half);
+        const GgxCapPoint<Batch> point = center_point(g);
+        const Batch cos_oh = point.cos_oh;
         return point.weight * IsotropicG2<Batch>(n.lobe.wo_local, n.lobe.alpha)(point.omega_i.z) *
                (schlick_weight(cos_oh) + fresnel_dielectric_weight(cos_oh, n.lobe.ior));
     });
