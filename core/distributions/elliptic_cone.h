@@ -125,7 +125,8 @@ GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
     g.a2 = sqrt(a2_2);
     g.valid = room > T(0) && g.b.z > T(0) && sqr(g.b.z) > a1_2 * sqr(g.d.z) + a2_2 * sqr(g.p.z);
 
-    // B, A1, A2 are b, a1 d, a2 p under M^-1, over |M^-1 b|; cross products of two of them are those of the third under M
+    // B, A1, A2 are b, a1 d, a2 p under M^-1, over |M^-1 b|; cross products of two of them are those of the third under
+    // M
     const T inverse_x = inverse(alpha_x), inverse_y = inverse(alpha_y);
     const detail::FrameProducts<T> under_inverse(g, sqr(inverse_x), sqr(inverse_y)),
         under_m(g, sqr(alpha_x), sqr(alpha_y));
@@ -169,16 +170,24 @@ GgxAxes<T> ellipse_axes(const GgxCap<T>& g) {
 
 namespace detail {
 
-/// Of a place in the cone, the boost undone: `time` is the boosted 1, cos_e3 the direction's cosine.
+/// (time, X, Y) of the boosted (1, x, y): the place in the cone is (X, Y) / time. Without the 1 (whole = 0), of a
+/// difference of places; sign -1 is the inverse.
 template <class T>
-GgxCapPoint<T> point_in_cone(const GgxCap<T>& g, const Vec2<T>& at, T time, T cos_e3) {
+Vec3<T> boost(const GgxCap<T>& g, T whole, const Vec2<T>& v, T sign) {
+    const T approach = sign * dot(g.velocity, v);
+    const Vec2<T> at = v + g.velocity * (sign * g.gamma * (whole + approach * g.gamma * inverse(g.gamma + T(1))));
+    return {g.gamma * (whole + approach), at.x, at.y};
+}
+
+/// Of a place in the cone; cos_e3 is the direction's cosine. Inlined, to spare the pdf where nobody reads it.
+template <class T>
+[[gnu::always_inline]] inline GgxCapPoint<T> point_in_cone(const GgxCap<T>& g, const Vec2<T>& at, T time, T cos_e3) {
     const T x = at.x * g.a1, y = at.y * g.a2, bend = x * x + y * y, length2 = T(1) + bend;
     const T cos_oh = g.cos_half + x * g.sin_half;  // times |h|
     const T inverse_length = inverse_sqrt(length2);
 
     const Vec3<T> tilt = x * g.d + y * g.p;
-    const Vec3<T> offset =
-        ((x * g.sin_half - g.cos_half * bend) * g.b + cos_oh * tilt) * (T(2) * sqr(inverse_length));
+    const Vec3<T> offset = ((x * g.sin_half - g.cos_half * bend) * g.b + cos_oh * tilt) * (T(2) * sqr(inverse_length));
     const T stretch = time * g.lift;  // |M w| / (|h| cos_e3)
     const T jacobian = stretch * cos_e3 * length2 * inverse_length;
     const T pdf = cos_e3 * jacobian * jacobian * jacobian /
@@ -187,33 +196,32 @@ GgxCapPoint<T> point_in_cone(const GgxCap<T>& g, const Vec2<T>& at, T time, T co
             cos_oh * inverse_length, pdf};
 }
 
-/// Of a place in the boosted cone.
+/// Of a boosted place, which is (1, x, y) boosted.
 template <class T>
-GgxCapPoint<T> boosted_point(const GgxCap<T>& g, const Vec2<T>& boosted, T cos_e3) {
-    const T approach = dot(g.velocity, boosted), time = g.gamma * (T(1) + approach);
-    const T along = g.gamma * (T(1) + approach * g.gamma * inverse(g.gamma + T(1)));
-    return point_in_cone(g, (boosted + g.velocity * along) * inverse(time), time, cos_e3);
+[[gnu::always_inline]] inline GgxCapPoint<T> boosted_point(const GgxCap<T>& g, const Vec3<T>& boosted, T cos_e3) {
+    const T inverse_time = inverse(boosted.x);
+    return point_in_cone(g, Vec2<T>(boosted.y * inverse_time, boosted.z * inverse_time), boosted.x, cos_e3);
 }
 
 }  // namespace detail
 
 /// The highlight's centre.
 template <class T>
-GgxCapPoint<T> center_point(const GgxCap<T>& g) {
+[[gnu::always_inline]] inline GgxCapPoint<T> center_point(const GgxCap<T>& g) {
     return detail::point_in_cone(g, g.velocity, g.gamma, T(1));
 }
 
 /// The point at (x, y) of the unit disk: uniform points of the disk, and rules for it, make points of density
 /// pdf_omega. (0, 0) is the highlight's centre. `room` is 1 - x^2 - y^2.
 template <class T>
-GgxCapPoint<T> disk_point(const GgxCap<T>& g, const GgxAxes<T>& axes, const Vec2<T>& xy, T room) {
+[[gnu::always_inline]] inline GgxCapPoint<T> disk_point(const GgxCap<T>& g, const GgxAxes<T>& axes, const Vec2<T>& xy,
+                                                        T room) {
     const T k1 = inverse(T(1) + sqr(axes.semi_axes.x)), k2 = inverse(T(1) + sqr(axes.semi_axes.y));
     const T major = xy.x * axes.major.x + xy.y * axes.major.y, minor = xy.y * axes.major.x - xy.x * axes.major.y;
     const T cos2_e3 = room + k1 * sqr(major) + k2 * sqr(minor), inverse_e3 = inverse_sqrt(max(cos2_e3, tiny<T>));
     const T along = major * sqrt(k1) * inverse_e3, across = minor * sqrt(k2) * inverse_e3;
-    return detail::boosted_point(
-        g, {along * axes.major.x - across * axes.major.y, along * axes.major.y + across * axes.major.x},
-        cos2_e3 * inverse_e3);
+    const Vec2<T> place(along * axes.major.x - across * axes.major.y, along * axes.major.y + across * axes.major.x);
+    return detail::boosted_point(g, detail::boost(g, T(1), place, T(1)), cos2_e3 * inverse_e3);
 }
 
 /// A direction in the cap by D(h), up to a smooth weight.

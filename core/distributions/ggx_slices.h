@@ -18,28 +18,32 @@
 
 namespace pivot {
 
-/// What of a chart's cap lies inside another cap. In the plane of p = w / (w . e3), w a direction of the stretched
-/// sphere, the chart's cap is an ellipse about the highlight's centre, and the other's rim a conic.
+/// The plane of p = w / (w . e3), w a direction of the stretched sphere: there the chart's cap is an ellipse about the
+/// highlight's centre.
+template <class T>
+struct GgxPlane {
+    GgxCap<T> chart;
+    GgxAxes<T> axes;     // of the ellipse
+    Vec2<T> across, up;  // axes of p: along the chord between the rims' crossings, and across it
+};
+
+/// What of a chart's cap lies inside another cap, whose rim is a conic in the plane.
 template <class T>
 struct GgxSlices {
-    GgxCap<T> chart;
-    GgxAxes<T> axes;           // of the ellipse
-    Vec2<T> across, up;        // axes of p: along the chord between the rims' crossings, and across it
-    std::array<T, 6> ellipse;  // of 1, x, y, x^2, xy, y^2 in those axes: < 0 in the chart's cap
+    GgxPlane<T> plane;
+    std::array<T, 6> ellipse;  // of 1, x, y, x^2, xy, y^2 in the plane's axes: < 0 in the chart's cap
     std::array<T, 6> other;    // > 0 in the other cap
     std::array<T, 6> ends;     // along `across`, in order: what is left, the conic if it is a hole, the chord
     Mask<T> is_cut, none;      // whether the rims cross; whether nothing is left
 };
 
-namespace detail {
-
-/// (1, X, Y) of the chart's cone, up to a factor, for a highlight-centred (1, x, y): the boost.
+/// A piece of a line that is left, and the line's weight.
 template <class T>
-Vec3<T> boost(const GgxCap<T>& g, T time, const Vec2<T>& v, T sign) {
-    const T approach = sign * dot(g.velocity, v);
-    const Vec2<T> at = v + g.velocity * (sign * g.gamma * (time + approach * g.gamma / (g.gamma + T(1))));
-    return {g.gamma * (time + approach), at.x, at.y};
-}
+struct GgxPiece {
+    T x, low, high, width;
+};
+
+namespace detail {
 
 /// A conic along the line x.
 template <class T>
@@ -77,10 +81,11 @@ T falling_root(const LineConic<T>& l) {
 template <class T>
 GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
     GgxSlices<T> s;
-    s.chart = chart;
+    s.plane.chart = chart;
+    s.plane.axes = ellipse_axes(chart);
     const Cap<T>& cap = chart.cap;
-    s.axes = ellipse_axes(chart);
-    const auto& [along_major, semi_axes] = s.axes;
+    const auto& [along_major, semi_axes] = s.plane.axes;
+    Vec2<T>&across = s.plane.across, &up = s.plane.up;
 
     // where the rims cross
     const Separation<T> between = separation(cap.axis, other.axis);
@@ -103,7 +108,7 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
     const T chord2 = dot(chord, chord);
     const auto has_chord = crossing && chord2 > tiny<T>;
     const T shrink = T(1) / sqrt(select(has_chord, chord2, T(1)));
-    s.across = {select(has_chord, chord.x * shrink, T(1)), select(has_chord, chord.y * shrink, T(0))};
+    across = {select(has_chord, chord.x * shrink, T(1)), select(has_chord, chord.y * shrink, T(0))};
 
     // the other cap's membership is a quadratic form on (1, X, Y) of the chart's cone
     const T b = dot(chart.b, other.axis), d = dot(chart.d, other.axis), p = dot(chart.p, other.axis);
@@ -123,23 +128,23 @@ GgxSlices<T> ggx_slices(const GgxCap<T>& chart, const Cap<T>& other) {
             Vec2<T>(major * along_major.x - minor * along_major.y, major * along_major.y + minor * along_major.x),
             T(1));
     };
-    s.up = {-s.across.y, s.across.x};
-    const Vec3<T> o = detail::boost(chart, T(1), Vec2<T>(T(0)), T(1)), u = cone_direction(s.across),
-                  v = cone_direction(s.up);
+    up = {-across.y, across.x};
+    const Vec3<T> o = detail::boost(chart, T(1), Vec2<T>(T(0)), T(1)), u = cone_direction(across),
+                  v = cone_direction(up);
     s.other = {form(o, o), T(2) * form(o, u), T(2) * form(o, v), form(u, u), T(2) * form(u, v), form(v, v)};
     const T ix = T(1) / sqr(semi_axes.x), iy = T(1) / sqr(semi_axes.y);
     s.ellipse = {T(-1),
                  T(0),
                  T(0),
-                 sqr(s.across.x) * ix + sqr(s.across.y) * iy,
-                 T(2) * (s.across.x * s.up.x * ix + s.across.y * s.up.y * iy),
-                 sqr(s.up.x) * ix + sqr(s.up.y) * iy};
+                 sqr(across.x) * ix + sqr(across.y) * iy,
+                 T(2) * (across.x * up.x * ix + across.y * up.y * iy),
+                 sqr(up.x) * ix + sqr(up.y) * iy};
 
     // What is left ends at a crossing, or where one of the curves turns back inside the other.
     s.is_cut = has_chord;
     s.none = !has_chord && !(center > T(0));
-    const T x0 = dot(first, s.across), x1 = dot(second, s.across);
-    const T half_width = sqrt(sqr(s.across.x * semi_axes.x) + sqr(s.across.y * semi_axes.y));
+    const T x0 = dot(first, across), x1 = dot(second, across);
+    const T half_width = sqrt(sqr(across.x * semi_axes.x) + sqr(across.y * semi_axes.y));
     const T left = select(has_chord, min(x0, x1), -half_width), right = select(has_chord, max(x0, x1), half_width);
     T low = left, high = right;
     const auto extend = [&](T x, const std::array<T, 6>& curve, const std::array<T, 6>& within, T sign) {
@@ -195,55 +200,65 @@ T share_cut_off(const GgxSlices<T>& s) {
     const T slope = sqrt(sqr(q[1]) + sqr(q[2])), bend = abs(q[3]) + abs(q[4]) + abs(q[5]);
     const T distance = T(2) * q[0] / (slope + sqrt(sqr(slope) + T(4) * abs(q[0]) * bend));
     const T beyond = T(0.5) / (T(1) + sqr(distance) + distance * sqrt(T(1) + sqr(distance)));  // (1 - sin atan) / 2
-    const T within = sqrt((T(1) + T(1) / sqr(s.axes.semi_axes.x)) * (T(1) + T(1) / sqr(s.axes.semi_axes.y)));
+    const T within =
+        sqrt((T(1) + T(1) / sqr(s.plane.axes.semi_axes.x)) * (T(1) + T(1) / sqr(s.plane.axes.semi_axes.y)));
     return select(s.is_cut, select(q[0] > T(0), min(beyond * within, T(1)), T(1)), T(0));
 }
 
-/// Calls visit(point, share): the integral of D(h) f / (4 cos_o) is the sum of share * point.weight * f.
-template <int lines, int nodes, class T, class Visit>
-void for_each_slice_point(const GgxSlices<T>& s, const Visit& visit) {
-    const Vec2<T> s2 = s.axes.semi_axes * s.axes.semi_axes;
-    const T density = sqrt((T(1) + T(1) / s2.x) * (T(1) + T(1) / s2.y)) / pi<T>;
-    const auto slice = [&](T x, T width) {
-        // y = r tan of an angle spreads the lobe evenly; t is the tangent of its half
-        const T r2 = T(1) + sqr(x), r = sqrt(r2);
-        const auto half_tangent = [&](T y) { return y / (r + sqrt(r2 + sqr(y))); };
-        const auto piece = [&](T from, T to) {
-            const T t0 = half_tangent(from), t_width = half_tangent(to) - t0;
-            for (const auto& node : gauss_rule<nodes>) {
-                const T t = t0 + t_width * T(node.x), t2 = sqr(t), inverse = T(1) / (T(1) + t2);
-                const T cosine = (T(1) - t2) * inverse, y = T(2) * t * r / (T(1) - t2);
-                const Vec2<T> p = x * s.across + y * s.up;
-                const T cos_e3 = cosine / r, major = p.x / s.axes.semi_axes.x, minor = p.y / s.axes.semi_axes.y;
-                const Vec2<T>& axis = s.axes.major;
-                visit(detail::boosted_point(s.chart, {major * axis.x - minor * axis.y, major * axis.y + minor * axis.x},
-                                            cos_e3),
-                      density * width * t_width * T(2 * node.weight) * inverse * sqr(cosine));
-            }
-        };
-        const auto ends = detail::slice_ends(s, x);
-        piece(ends.low, ends.high);
-        if (any(ends.lower_high > ends.lower_low)) piece(ends.lower_low, ends.lower_high);
-    };
+/// Calls visit(piece) with the pieces of each line of the rule; some lanes' may be empty.
+template <int lines, class T, class Visit>
+void for_each_piece(const GgxSlices<T>& s, const Visit& visit) {
     // How far what is left is from the highlight's centre: the lobe's outskirts are as wide as they are far.
     const T middle_x = min(max(T(0), s.ends.front()), s.ends.back());
-    const auto ends = detail::slice_ends(s, middle_x);
-    const T upper_y = select(ends.low > T(0), ends.low, max(-ends.high, T(0)));
-    const T far_y = select(ends.lower_high > ends.lower_low, min(upper_y, max(-ends.lower_high, T(0))), upper_y);
+    const auto at_middle = detail::slice_ends(s, middle_x);
+    const T upper_y = select(at_middle.low > T(0), at_middle.low, max(-at_middle.high, T(0)));
+    const T far_y =
+        select(at_middle.lower_high > at_middle.lower_low, min(upper_y, max(-at_middle.lower_high, T(0))), upper_y);
     const T sigma2 = T(1) + sqr(far_y), sigma = sqrt(sigma2);
     // x = sigma sine / cosine of an angle whose sine is even; at the ellipse's ends the slices' length goes like a
     // circle's.
-    const auto panel = [&](T from, T to) {
-        const T low = from / sqrt(sigma2 + sqr(from)), high = to / sqrt(sigma2 + sqr(to));
+    const auto sine_of = [&](T x) { return x * inverse_sqrt(sigma2 + sqr(x)); };
+    for (size_t i = 0; i + 1 < s.ends.size(); ++i) {
+        if (!any(s.ends[i + 1] > s.ends[i])) continue;
+        const T low = sine_of(s.ends[i]), high = sine_of(s.ends[i + 1]);
         const T half = T(0.5) * (high - low), middle = T(0.5) * (high + low);
         for (const auto& line : gauss_rule<lines>) {
-            const T sine = middle + half * T(line.sine), secant2 = T(1) / max((T(1) - sine) * (T(1) + sine), tiny<T>);
-            const T x = sigma * sine * sqrt(secant2), ratio2 = secant2 / (T(1) + sqr(x));
-            slice(x, half * T(line.sine_weight) * sigma * ratio2 * sqrt(ratio2));
+            const T sine = middle + half * T(line.sine);
+            const T secant = inverse_sqrt(max((T(1) - sine) * (T(1) + sine), tiny<T>)), x = sigma * sine * secant;
+            const T ratio = secant * inverse_sqrt(T(1) + sqr(x));
+            const T width = half * T(line.sine_weight) * sigma * sqr(ratio) * ratio;
+            const auto ends = detail::slice_ends(s, x);
+            visit(GgxPiece<T>{x, ends.low, ends.high, width});
+            if (any(ends.lower_high > ends.lower_low)) visit(GgxPiece<T>{x, ends.lower_low, ends.lower_high, width});
         }
+    }
+}
+
+/// Calls visit(point, share) with a piece's points: the integral of D(h) f / (4 cos_o) is the sum over all pieces of
+/// share * point.weight * f.
+template <int nodes, class T, class Visit>
+void for_each_point(const GgxPlane<T>& plane, const GgxPiece<T>& piece, const Visit& visit) {
+    const auto& [major, semi_axes] = plane.axes;
+    const Vec2<T> inverse_axes(inverse(semi_axes.x), inverse(semi_axes.y));
+    const T density = sqrt((T(1) + sqr(inverse_axes.x)) * (T(1) + sqr(inverse_axes.y))) * T(1 / pi<double>);
+    const auto boosted = [&](T whole, const Vec2<T>& p) {
+        const T along = p.x * inverse_axes.x, across = p.y * inverse_axes.y;
+        return detail::boost(plane.chart, whole,
+                             Vec2<T>(along * major.x - across * major.y, along * major.y + across * major.x), T(1));
     };
-    for (size_t i = 0; i + 1 < s.ends.size(); ++i)
-        if (any(s.ends[i + 1] > s.ends[i])) panel(s.ends[i], s.ends[i + 1]);
+    const Vec3<T> start = boosted(T(1), piece.x * plane.across), step = boosted(T(0), plane.up);
+    // y = r tan of an angle spreads the lobe evenly; t is the tangent of its half
+    const T r2 = T(1) + sqr(piece.x), inverse_r = inverse_sqrt(r2), r = r2 * inverse_r;
+    const auto half_tangent = [&](T y) { return y * inverse(r + sqrt(r2 + sqr(y))); };
+    const T t0 = half_tangent(piece.low), t_width = half_tangent(piece.high) - t0;
+    const T share = density * piece.width * t_width;
+    for (const auto& node : gauss_rule<nodes>) {
+        const T t = t0 + t_width * T(node.x), t2 = sqr(t), fall = max(T(1) - t2, std::numeric_limits<T>::epsilon());
+        const T over_both = inverse((T(1) + t2) * fall), secant2 = fall * over_both;  // 1 / (1 + t^2)
+        const T cosine = fall * secant2, y = T(2) * t * r * (T(1) + t2) * over_both;
+        visit(detail::boosted_point(plane.chart, start + y * step, cosine * inverse_r),
+              share * T(2 * node.weight) * secant2 * sqr(cosine));
+    }
 }
 
 }  // namespace pivot

@@ -84,18 +84,13 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
 CapLightShading::CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings)
     : light_(light), batch_(batch), cap_(local_cap(light, batch)), falloff_varies_(cap_.versine < Batch(0.0f)) {
     if (const auto* spot = std::get_if<SpotLight>(&light)) {
-        spot_direction_ = batch.frame.to_local(broadcast(spot->direction));
-        const Batch cosine = -dot(spot_direction_, cap_.axis), sine = safe_sqrt(Batch(1.0f) - sqr(cosine));
+        falloff_ = {spot, batch.frame.to_local(broadcast(spot->direction))};
+        const Batch cosine = -dot(falloff_.direction_local, cap_.axis), sine = safe_sqrt(Batch(1.0f) - sqr(cosine));
         const Batch turn = sqrt(sin2_half_angle(cap_)) * sine, rest = cosine * cos_half_angle(cap_);
         falloff_varies_ = spot_falloff(*spot, rest - turn) != spot_falloff(*spot, rest + turn);
     }
     if (batch.has_glossy) reflect_glossy(settings);
     if (batch.has_diffuse) reflect_diffuse();
-}
-
-Batch CapLightShading::falloff(const Vec3b& wi_local) const {
-    const auto* spot = std::get_if<SpotLight>(&light_);
-    return spot ? spot_falloff(*spot, -dot(spot_direction_, wi_local)) : Batch(1.0f);
 }
 
 void CapLightShading::reflect_glossy(const RenderSettings& settings) {
@@ -107,7 +102,7 @@ void CapLightShading::reflect_glossy(const RenderSettings& settings) {
         // Fresnel at the light's point nearest the mirror direction.
         const Vec3b& wo = batch_.lobe.wo_local;
         const Vec3b nearest = nearest_in_cap(cap_, Vec3b(-wo.x, -wo.y, wo.z));
-        const Batch plain = share * falloff(nearest), cos_oh = abs(dot(wo, normalize(wo + nearest)));
+        const Batch plain = share * falloff_(nearest), cos_oh = abs(dot(wo, normalize(wo + nearest)));
         integral.sums = {plain, plain * schlick_weight(cos_oh),
                          plain * fresnel_dielectric_weight(cos_oh, batch_.lobe.ior)};
         integral.predicted_error = Batch(1.0f);
@@ -116,8 +111,7 @@ void CapLightShading::reflect_glossy(const RenderSettings& settings) {
         // EXACT takes the best there is
         const bool automatic = settings.analytic_method == AnalyticMethod::automatic;
         const Batch budget(automatic ? 0.01f * settings.error_budget_percent : 1e-4f);
-        integral = integrate(
-            *exact_, budget, [this](const Vec3b& wi) { return falloff(wi); }, falloff_varies_);
+        integral = integrate(*exact_, budget, falloff_, falloff_varies_);
     }
     put_glossy(batch_, integral, radiance_of(light_), reflection_);
 }
@@ -126,7 +120,7 @@ void CapLightShading::reflect_diffuse() {
     const Vec3b normal(Batch(0.0f), Batch(0.0f), Batch(1.0f));
     Batch share = clamped_cosine_integral(cap_, normal) * Batch(1.0f / pi<float>);
     if (std::holds_alternative<SpotLight>(light_)) {
-        Batch mean = falloff(cap_.axis);
+        Batch mean = falloff_(cap_.axis);
         if (any(falloff_varies_)) {
             // over the projected disk of the light
             const Frame<Batch> frame = frame_from_z(cap_.axis);
@@ -134,7 +128,7 @@ void CapLightShading::reflect_diffuse() {
             for (const Vec2f& xy : disk_rule<float, 16>()) {
                 const Vec3b wi = frame.to_world(cap_point(cap_, xy));
                 const Batch weight = max(wi.z, Batch(0.0f));
-                sum += weight * falloff(wi);
+                sum += weight * falloff_(wi);
                 weights += weight;
             }
             mean = select(weights > Batch(0.0f), sum / max(weights, tiny<Batch>), mean);
@@ -201,12 +195,12 @@ void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool 
         if (wants_diffuse) {
             const Vec2f xy = sample_disk(points.point(PointSet::light_diffuse, k, range.all));
             const Vec3b wi = frame.to_world(cap_point(cap_, xy));
-            add(wi, max(wi.z, Batch(0.0f)) * falloff(wi), false);
+            add(wi, max(wi.z, Batch(0.0f)) * falloff_(wi), false);
         }
         if (wants_glossy) {
             const Vec2f xy = sample_disk(points.point(PointSet::light_glossy, k, range.all));
             const auto point = lobe_point(*exact_, axes, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
-            add(point.omega_i, point.value * falloff(point.omega_i), true);
+            add(point.omega_i, point.value * falloff_(point.omega_i), true);
         }
     }
     std::vector<std::uint8_t> occluded(rays.size());

@@ -33,6 +33,19 @@ struct LaneShares {
     }
 };
 
+/// What a spot's beam leaves of its radiance towards each lane; nothing is lost of other lights.
+struct BeamFalloff {
+    const SpotLight* spot = nullptr;
+    Vec3b direction_local{};
+
+    Batch operator()(const Vec3b& wi_local) const {
+        return spot ? spot_falloff(*spot, -dot(direction_local, wi_local)) : Batch(1.0f);
+    }
+    friend BeamFalloff permute(const BeamFalloff& falloff, const LaneIndex& index) {
+        return {falloff.spot, permute(falloff.direction_local, index)};
+    }
+};
+
 /// Of light that nothing hides. `light` must not be an area light.
 class CapLightShading {
    public:
@@ -51,14 +64,13 @@ class CapLightShading {
     };
     void trace(const Scene& scene, const FixedPoints& points, bool wants_diffuse, bool wants_glossy,
                const PointRange& range, std::array<LaneShares, batch_size>& shares) const;
-    Batch falloff(const Vec3b& wi_local) const;
     void reflect_glossy(const RenderSettings& settings);
     void reflect_diffuse();
 
     const Light& light_;
     const SurfaceBatch& batch_;
-    Cap<Batch> cap_;        // shading frame
-    Vec3b spot_direction_;  // shading frame
+    Cap<Batch> cap_;  // shading frame
+    BeamFalloff falloff_;
     BatchMask falloff_varies_;
     std::optional<GgxCapLight<Batch>> exact_;
     Reflection reflection_{};

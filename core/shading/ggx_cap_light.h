@@ -8,6 +8,7 @@
 #include "core/bsdf/ggx.h"
 #include "core/distributions/ggx_slices.h"
 #include "core/shading/method.h"
+#include "core/simd/batch.h"
 
 namespace pivot {
 
@@ -64,6 +65,15 @@ struct IsotropicG2 {
     T at_most() const { return T(2) * inverse(view_weight + T(1)); }
 };
 
+/// The falloff of a light that has none: as another's, its lanes can be permuted.
+struct Unattenuated {
+    template <class T>
+    T operator()(const Vec3<T>&) const {
+        return T(1);
+    }
+    friend Unattenuated permute(const Unattenuated& falloff, const LaneIndex&) { return falloff; }
+};
+
 namespace detail {
 
 template <class T, class Falloff>
@@ -85,10 +95,64 @@ LobeSums<T> sum_points(const GgxCap<T>& g, LobeSummer<T, Falloff> summer) {
     return summer.sums;
 }
 
-template <int N, class T, class Falloff>
-LobeSums<T> sum_slices(const GgxSlices<T>& s, LobeSummer<T, Falloff> summer) {
-    for_each_slice_point<N, N>(s, [&](const GgxCapPoint<T>& point, T share) { summer(point, share); });
-    return summer.sums;
+/// What the pieces of several lanes' slices need of their lanes.
+struct PieceLanes {
+    GgxPlane<Batch> plane;
+    IsotropicG2<Batch> g2;
+    Batch ior;
+};
+
+/// Few lanes ask for slices, and each for as many panels as its light needs: it is their pieces that fill batches.
+template <int N, class Falloff>
+LobeSums<Batch> sum_slices(const GgxSlices<Batch>& slices, const BatchMask& wanted,
+                           const LobeSummer<Batch, Falloff>& summer) {
+    struct Piece {
+        std::int32_t lane;
+        float x, low, high, width;
+    };
+    const Lanes is_wanted = store(select(wanted, Batch(1.0f), Batch(0.0f)));
+    std::array<std::int32_t, batch_size> lanes;
+    std::size_t lane_count = 0, piece_count = 0;
+    for (std::size_t i = 0; i < batch_size; ++i)
+        if (is_wanted[i] > 0.0f) lanes[lane_count++] = static_cast<std::int32_t>(i);
+    constexpr std::size_t panels = std::tuple_size_v<decltype(slices.ends)> - 1;
+    std::array<Piece, batch_size * panels * N * 2> pieces;
+    for_each_piece<N>(slices, [&](const GgxPiece<Batch>& piece) {
+        const Lanes x = store(piece.x), low = store(piece.low), high = store(piece.high), width = store(piece.width);
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const auto i = static_cast<std::size_t>(lanes[k]);
+            if (width[i] > 0.0f && high[i] > low[i])
+                pieces[piece_count++] = {lanes[k], x[i], low[i], high[i], width[i]};
+        }
+    });
+
+    const PieceLanes all{slices.plane, summer.g2, summer.lobe.ior};
+    Lanes plain{}, schlick{}, dielectric{};
+    for (std::size_t first = 0; first < piece_count; first += batch_size) {
+        const std::size_t count = std::min(batch_size, piece_count - first);
+        const auto piece = [&](std::size_t i) -> const Piece& { return pieces[first + std::min(i, count - 1)]; };
+        LaneIndex lane;
+        for (std::size_t i = 0; i < batch_size; ++i) lane[i] = piece(i).lane;
+        const PieceLanes picked = permute(all, lane);
+        const Falloff falloff = permute(summer.falloff, lane);
+        GgxLobe<Batch> lobe = summer.lobe;
+        lobe.ior = picked.ior;
+        LobeSummer<Batch, Falloff> along{lobe, picked.g2, falloff, {}};
+        const GgxPiece<Batch> batch{gather([&](std::size_t i) { return piece(i).x; }),
+                                    gather([&](std::size_t i) { return piece(i).low; }),
+                                    gather([&](std::size_t i) { return piece(i).high; }),
+                                    gather([&](std::size_t i) { return piece(i).width; })};
+        for_each_point<N>(picked.plane, batch,
+                          [&](const GgxCapPoint<Batch>& point, const Batch& share) { along(point, share); });
+        const Lanes p = store(along.sums.plain), s = store(along.sums.schlick), d = store(along.sums.dielectric);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto to = static_cast<std::size_t>(lane[i]);
+            plain[to] += p[i];
+            schlick[to] += s[i];
+            dielectric[to] += d[i];
+        }
+    }
+    return {load(plain), load(schlick), load(dielectric)};
 }
 
 template <class T>
@@ -142,87 +206,103 @@ LobePoint<T> lobe_point(const GgxCapLight<T>& light, const GgxAxes<T>& axes, con
     return {point.omega_i, select(is_seen, point.weight * light.g2(point.omega_i.z), T(0))};
 }
 
-/// budget: relative. falloff(omega_i): what the light's radiance is multiplied by towards there; falloff_varies: in
-/// some lane, so that one point is not enough.
+namespace detail {
+
+/// What one point leaves to do better: its error, and how near the light is to the horizon.
+template <class T>
+struct PointError {
+    T one, at_most;  // relative; at_most: of leaving the light out
+    T nearness2;     // (sin psi / sin elevation)^2, at most 1
+};
+
+/// By the cheapest rule that is good enough, for the lanes where one point is not. Apart from that, which is most
+/// lights' case.
 template <class T, class Falloff>
-LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& falloff,
-                          const Mask<T>& falloff_varies) {
+[[gnu::noinline]] void refine(const GgxCapLight<T>& light, T budget, const PointError<T>& error,
+                              const LobeSummer<T, Falloff>& summer, const Mask<T>& falloff_varies,
+                              LobeIntegral<T>& result) {
     const auto& [lobe, cap, crosses, below, surrounds, g, g2] = light;
     const Cap<T> horizon{Vec3<T>(T(0), T(0), T(1)), T(1)};
-    const T z = cap.axis.z, sine = sqrt(sin2_half_angle(cap));
-    const detail::LobeSummer<T, Falloff> summer{lobe, g2, falloff, {}};
-    const GgxCapPoint<T> center = center_point(g);
-    LobeIntegral<T> result;
-    {
-        detail::LobeSummer<T, Falloff> one = summer;
-        one(center, T(1));
-        result.sums = one.sums;
-    }
-    // Masked as little as can be, all of the cap's half vectors are this.
-    const T at_most = center.weight * g2.at_most() * T(1 / least_value);
-    const T center_z = max(center.omega_i.z, T(0)), center_g2 = g2(center_z);
-    const T cos_oh = center.cos_oh;
-    const T turn = T(0.5) * g.sin_half * sine, fresnel_gap = T(1) - cos_oh;
-    const T fresnel_bend = sqr(turn) * T(10) * lobe.fresnel_contrast * fresnel_gap * sqr(fresnel_gap) /
-                           (T(1) + lobe.fresnel_contrast * schlick_weight(cos_oh));
-    const T error_1 = error_of_point(lobe.alpha, cap.versine, center_z, center_g2) + T(0.25) * fresnel_bend;
-    const T nearness2 = min(sqr(sine / max(z, tiny<T>)), T(1));
-
-    result.predicted_error = min(error_1, at_most);
-    result.method = detail::number_of<T>(Method::points_1);
-    const auto is_whole = !crosses || at_most < budget;
-    const auto take = [&](const auto& lanes, const LobeSums<T>& sums, T error, Method method) {
+    const auto take = [&](const auto& lanes, const LobeSums<T>& sums, T left, Method method) {
         result.sums = select<T>(lanes, sums, result.sums);
-        result.predicted_error = select(lanes, error, result.predicted_error);
-        result.method = select(lanes, detail::number_of<T>(method), result.method);
+        result.predicted_error = select(lanes, min(left, error.at_most), result.predicted_error);
+        result.method = select(lanes, number_of<T>(method), result.method);
     };
 
-    // What of a crossing light's disk is below the horizon may be too little to matter.
-    auto needs_slices = crosses && !is_whole && !below;
+    auto needs_slices = crosses && !below && error.at_most >= budget;
     auto needs_points = !crosses && (result.predicted_error > budget || falloff_varies);
     std::optional<GgxSlices<T>> slices;
     if (any(needs_slices)) {
         const Cap<T> other{select(surrounds, cap.axis, horizon.axis), select(surrounds, cap.versine, horizon.versine)};
         slices.emplace(ggx_slices(g, other));
-        const T lost = share_cut_off(*slices) + error_1;
+        // What of a crossing light's disk is below the horizon may be too little to matter.
+        const T lost = share_cut_off(*slices) + error.one;
         const auto barely = needs_slices && !surrounds && lost < budget;
-        result.predicted_error = select(barely, min(lost, at_most), result.predicted_error);
+        result.predicted_error = select(barely, min(lost, error.at_most), result.predicted_error);
         needs_points = needs_points || (barely && falloff_varies);
         needs_slices = needs_slices && !barely;
     }
-    const auto refine = [&]<size_t N>(std::integral_constant<size_t, N>, float error_left, Method method) {
-        if (!any(needs_points)) return;
-        take(needs_points, detail::sum_points<N>(g, summer), min(error_1 * nearness2 * T(error_left), at_most), method);
-        needs_points = needs_points && (result.predicted_error > budget || falloff_varies);
-    };
-    refine(std::integral_constant<size_t, 4>(), error_left_by_points_4, Method::points_4);
-    refine(std::integral_constant<size_t, 8>(), error_left_by_points_8, Method::points_8);
-    refine(std::integral_constant<size_t, 16>(), error_left_by_points_16, Method::points_16);
-    const auto is_poor = needs_points && result.predicted_error > budget;
-    if (any(is_poor)) {
-        if (!slices) slices.emplace(ggx_slices(g, horizon));
-        needs_slices = needs_slices || is_poor;
+    if (any(needs_points)) {
+        const T left = error.one * error.nearness2;
+        const auto by_4 = needs_points && !falloff_varies && left * T(error_left_by_points_4) <= budget;
+        const auto by_8 = needs_points && !falloff_varies && !by_4 && left * T(error_left_by_points_8) <= budget;
+        const auto by_16 = needs_points && !by_4 && !by_8 && left * T(error_left_by_points_16) <= budget;
+        if (any(by_4)) take(by_4, sum_points<4>(g, summer), left * T(error_left_by_points_4), Method::points_4);
+        if (any(by_8)) take(by_8, sum_points<8>(g, summer), left * T(error_left_by_points_8), Method::points_8);
+        if (any(by_16)) take(by_16, sum_points<16>(g, summer), left * T(error_left_by_points_16), Method::points_16);
+        if (const auto rest = needs_points && !by_4 && !by_8 && !by_16; any(rest)) {
+            if (!slices) slices.emplace(ggx_slices(g, horizon));
+            needs_slices = needs_slices || rest;
+        }
     }
     if (any(needs_slices)) {
         const T floor = max(budget, T(error_of_slices_8));
         const auto by_8 = needs_slices && floor < T(error_of_slices_6);
         const auto by_5 = needs_slices && !(floor < T(error_of_slices_5));
         const auto by_6 = needs_slices && !by_8 && !by_5;
-        if (any(by_5)) take(by_5, detail::sum_slices<5>(*slices, summer), T(error_of_slices_5), Method::slices_5);
-        if (any(by_6)) take(by_6, detail::sum_slices<6>(*slices, summer), T(error_of_slices_6), Method::slices_6);
-        if (any(by_8)) take(by_8, detail::sum_slices<8>(*slices, summer), T(error_of_slices_8), Method::slices_8);
-        const auto is_empty = needs_slices && slices->none;
-        take(is_empty, {}, T(0), Method::none);
+        if (any(by_5)) take(by_5, sum_slices<5>(*slices, by_5, summer), T(error_of_slices_5), Method::slices_5);
+        if (any(by_6)) take(by_6, sum_slices<6>(*slices, by_6, summer), T(error_of_slices_6), Method::slices_6);
+        if (any(by_8)) take(by_8, sum_slices<8>(*slices, by_8, summer), T(error_of_slices_8), Method::slices_8);
+        take(needs_slices && slices->none, {}, T(0), Method::none);
     }
-    take(below, {}, T(0), Method::none);
+}
+
+}  // namespace detail
+
+/// budget: relative. falloff(omega_i): what the light's radiance is multiplied by towards there; falloff_varies: in
+/// some lane, so that one point is not enough.
+template <class T, class Falloff>
+LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& falloff,
+                          const Mask<T>& falloff_varies) {
+    const auto& [lobe, cap, crosses, below, surrounds, g, g2] = light;
+    const GgxCapPoint<T> center = center_point(g);
+    const T center_z = max(center.omega_i.z, T(0)), center_g2 = g2(center_z), cos_oh = center.cos_oh;
+    LobeIntegral<T> result;
+    add(result.sums, lobe, cos_oh, center.weight * center_g2 * falloff(center.omega_i));
+
+    const T z = cap.axis.z, sine2 = sin2_half_angle(cap), fresnel_gap = T(1) - cos_oh;
+    const T fresnel_bend = T(0.25 * 0.25 * 10) * sqr(g.sin_half) * sine2 * lobe.fresnel_contrast * fresnel_gap *
+                           sqr(fresnel_gap) * inverse(T(1) + lobe.fresnel_contrast * schlick_weight(cos_oh));
+    // Masked as little as can be, all of the cap's half vectors are at_most.
+    const detail::PointError<T> error{error_of_point(lobe.alpha, cap.versine, center_z, center_g2) + fresnel_bend,
+                                      center.weight * g2.at_most() * T(1 / least_value),
+                                      min(sine2 * inverse(max(sqr(z), T(1e-12f))), T(1))};
+    result.predicted_error = min(error.one, error.at_most);
+    result.method = detail::number_of<T>(Method::points_1);
+    if (any(!below && error.at_most >= budget && (crosses || result.predicted_error > budget || falloff_varies))) {
+        const detail::LobeSummer<T, Falloff> summer{lobe, g2, falloff, {}};
+        detail::refine(light, budget, error, summer, falloff_varies, result);
+    }
+    result.sums = select<T>(below, {}, result.sums);
+    result.predicted_error = select(below, T(0), result.predicted_error);
+    result.method = select(below, detail::number_of<T>(Method::none), result.method);
     return result;
 }
 
 template <class T>
 LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget) {
     const auto never = light.cap.versine < T(0);
-    return integrate(
-        light, budget, [](const Vec3<T>&) { return T(1); }, never);
+    return integrate(light, budget, Unattenuated(), never);
 }
 
 }  // namespace pivot

@@ -3,6 +3,11 @@
 #pragma once
 
 // clang-format off: the vectors' header must see numeric_limits<Batch>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <xsimd/xsimd.hpp>
 
@@ -79,6 +84,33 @@ Vec3b gather_vector(const Value& value) {
         z[i] = v.z;
     }
     return {load(x), load(y), load(z)};
+}
+
+/// Lane i of a permuted batch is lane index[i].
+using LaneIndex = std::array<std::int32_t, batch_size>;
+
+inline Batch permute(const Batch& batch, const LaneIndex& index) {
+#ifdef __AVX2__
+    static_assert(sizeof(index) == sizeof(__m256i));
+    return _mm256_permutevar8x32_ps(batch, std::bit_cast<__m256i>(index));
+#else
+    const Lanes lanes = store(batch);
+    return gather([&](std::size_t i) { return lanes[static_cast<std::size_t>(index[i])]; });
+#endif
+}
+
+/// Of every member of a struct of batches and masks.
+template <class Batches>
+Batches permute(const Batches& batches, const LaneIndex& index) {
+    static_assert(std::is_trivially_copyable_v<Batches> && sizeof(BatchMask) == sizeof(Batch));
+    Batches result = batches;
+    for (std::size_t at = 0; at < sizeof(Batches); at += sizeof(Batch)) {
+        Batch member;
+        std::memcpy(&member, reinterpret_cast<const std::byte*>(&result) + at, sizeof(Batch));
+        member = permute(member, index);
+        std::memcpy(reinterpret_cast<std::byte*>(&result) + at, &member, sizeof(Batch));
+    }
+    return result;
 }
 
 }  // namespace pivot

@@ -2,7 +2,8 @@
 // and instruction set, measured in the same run. Prints name,slots,nanoseconds lines; compiled by analytic.py.
 #include <chrono>
 #include <cstdio>
-#include <random>
+#include <optional>
+#include <vector>
 
 #include "core/distributions/sptd.h"
 #include "core/shading/ggx_area_light.h"
@@ -39,38 +40,75 @@ double peak_flops() {
     return 2.0 * rounds * chains * static_cast<double>(batch_size) / time;
 }
 
-/// Eight neighbours of a frame: one surface and light, views a pixel apart.
+/// Neighbours in a frame's row, and one light.
 struct Neighbours {
     GgxLobe<Batch> lobe;
     Cap<Batch> cap;
     Pivot<Batch> pivot;
 };
 
-/// A frame of mixed roughness: alpha even in its root, views to 85 degrees, lights of 0.5..30 degrees near the
-/// highlight, one in ten across the horizon.
-std::vector<Neighbours> frame(std::size_t count) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> u(0.0f, 1.0f);
+struct Hit {
+    Vec3f position, normal, view;
+    float alpha;
+};
+
+struct Ball {
+    Vec3f center;
+    float radius, alpha;
+};
+
+/// 25 balls on a floor, each of its own roughness, 0.02..1.
+std::vector<Ball> balls() {
+    std::vector<Ball> result;
+    for (int i = 0; i < 25; ++i) {
+        const Vec3f center(1.1f * static_cast<float>(i % 5 - 2), 1.1f * static_cast<float>(i / 5 - 2), 0.5f);
+        result.push_back({center, 0.5f, std::max(sqr(0.02f + 0.98f * static_cast<float>(i) / 24.0f), min_alpha)});
+    }
+    return result;
+}
+
+/// What the camera's ray through (x, y) of the unit square sees first.
+std::optional<Hit> look(float x, float y) {
+    const Vec3f eye(0.0f, -8.0f, 5.0f), ahead = normalize(-eye), right(1.0f, 0.0f, 0.0f), up = cross(right, ahead);
+    const Vec3f ray = normalize(ahead + (x - 0.5f) * 0.9f * right + (0.5f - y) * 0.5f * up);
+    float nearest = ray.z < 0.0f ? -eye.z / ray.z : 1e30f;
+    Hit hit{eye + nearest * ray, {0.0f, 0.0f, 1.0f}, -ray, 0.25f};
+    for (const Ball& ball : balls()) {
+        const Vec3f to = ball.center - eye;
+        const float along = dot(to, ray), under = sqr(ball.radius) - (dot(to, to) - sqr(along));
+        const float t = along - std::sqrt(std::max(under, 0.0f));
+        if (under <= 0.0f || t >= nearest) continue;
+        nearest = t;
+        hit = {eye + t * ray, (eye + t * ray - ball.center) / ball.radius, -ray, ball.alpha};
+    }
+    return nearest < 1e30f ? std::optional(hit) : std::nullopt;
+}
+
+/// A picture of the balls under three sphere lights, in batches of what is seen one after the other in a row.
+std::vector<Neighbours> frame(int width, int height) {
+    const std::array<std::pair<Vec3f, float>, 3> lights{
+        {{{-3.0f, -4.0f, 5.0f}, 1.0f}, {{4.0f, -3.0f, 3.0f}, 0.5f}, {{1.0f, 5.0f, 4.0f}, 0.25f}}};
     std::vector<Neighbours> result;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float alpha = sqr(0.05f + 0.9f * u(random)), half_angle = 0.0087f * std::pow(60.0f, u(random));
-        const float theta = 1.48f * u(random);
-        const Vec3f view(std::sin(theta), 0.0f, std::cos(theta));
-        Vec3f axis = normalize(ggx_sample(view, alpha, alpha, Vec2f(u(random), u(random))));
-        const bool crosses = u(random) < 0.1f;
-        axis.z = crosses ? (2.0f * u(random) - 1.0f) * half_angle : std::max(axis.z, 1.2f * std::sin(half_angle));
-        axis = normalize(axis);
-        Lanes x, z;
-        for (std::size_t lane = 0; lane < batch_size; ++lane) {
-            const float turned = std::min(theta + 5e-4f * static_cast<float>(lane), 1.5f);
-            x[lane] = std::sin(turned);
-            z[lane] = std::cos(turned);
+    for (int row = 0; row < height; ++row) {
+        std::vector<Hit> hits;
+        for (int column = 0; column < width; ++column) {
+            const auto hit = look((static_cast<float>(column) + 0.5f) / static_cast<float>(width),
+                                  (static_cast<float>(row) + 0.5f) / static_cast<float>(height));
+            if (hit) hits.push_back(*hit);
         }
-        Neighbours n;
-        n.lobe = {{load(x), Batch(0.0f), load(z)}, Batch(alpha), Batch(1.5f), true, Batch(20.0f)};
-        n.cap = {{Batch(axis.x), Batch(axis.y), Batch(axis.z)}, Batch(versine_of_angle(half_angle))};
-        n.pivot = {{-load(x), Batch(0.0f), load(z)}, Batch(std::min(1.2f * alpha, 0.9f))};
-        result.push_back(n);
+        for (std::size_t first = 0; first + batch_size <= hits.size(); first += batch_size) {
+            const auto hit = [&](std::size_t lane) -> const Hit& { return hits[first + lane]; };
+            const Frame<Batch> local = frame_from_z(gather_vector([&](std::size_t i) { return hit(i).normal; }));
+            const Vec3b position = gather_vector([&](std::size_t i) { return hit(i).position; });
+            const Vec3b wo = local.to_local(gather_vector([&](std::size_t i) { return hit(i).view; }));
+            const Batch alpha = gather([&](std::size_t i) { return hit(i).alpha; });
+            for (const auto& [center, radius] : lights) {
+                Cap<Batch> cap = cap_of_sphere(broadcast(center) - position, Batch(radius));
+                cap.axis = local.to_local(cap.axis);
+                const Pivot<Batch> pivot{{-wo.x, -wo.y, wo.z}, min(Batch(1.2f) * alpha, Batch(0.9f))};
+                result.push_back({{wo, alpha, Batch(1.5f), true, Batch(20.0f)}, cap, pivot});
+            }
+        }
     }
     return result;
 }
@@ -85,7 +123,7 @@ void report(const char* name, double peak, std::size_t points, double time) {
 int main() {
     const double peak = peak_flops();
     std::printf("peak GFLOP/s,%.1f,\n", peak * 1e-9);
-    const std::vector<Neighbours> batches = frame(4096);
+    const std::vector<Neighbours> batches = frame(160, 90);
     const std::size_t points = batches.size() * batch_size;
     const auto measure = [&](const char* name, const auto& shade) {
         report(name, peak, points, seconds([&] {
