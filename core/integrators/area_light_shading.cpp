@@ -56,8 +56,7 @@ AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& b
     if (batch.has_glossy)
         put_glossy(batch, integrate_glossy(batch, light, outline, settings), light.radiance, reflection_);
     if (batch.has_diffuse) {
-        const Batch above = select(is_above(outline), Batch(1.0f), Batch(0.0f));
-        const Lanes shares = store(above * diffuse_share<4, 4>(outline, outline_above<2>(outline)));
+        const Lanes shares = store(diffuse_share(outline));
         for (std::size_t i = 0; i < batch.count; ++i)
             reflection_.diffuse[i] = light.radiance * batch.lanes[i]->surface.diffuse * shares[i];
     }

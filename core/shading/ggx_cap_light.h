@@ -42,6 +42,23 @@ LobeSums<T> select(const Mask<T>& condition, const LobeSums<T>& a, const LobeSum
             select(condition, a.dielectric, b.dielectric)};
 }
 
+/// Of batches whose lanes are parts of other lanes' sums.
+struct LaneSums {
+    Lanes plain{}, schlick{}, dielectric{};
+
+    /// The first `count` lanes of a part, each to the lane it belongs to.
+    void add(const LobeSums<Batch>& part, const LaneIndex& lane, std::size_t count) {
+        const Lanes p = store(part.plain), s = store(part.schlick), d = store(part.dielectric);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto to = static_cast<std::size_t>(lane[i]);
+            plain[to] += p[i];
+            schlick[to] += s[i];
+            dielectric[to] += d[i];
+        }
+    }
+    LobeSums<Batch> load() const { return {pivot::load(plain), pivot::load(schlick), pivot::load(dielectric)}; }
+};
+
 template <class T>
 struct LobeIntegral {
     LobeSums<T> sums;
@@ -127,7 +144,7 @@ LobeSums<Batch> sum_slices(const GgxSlices<Batch>& slices, const BatchMask& want
     });
 
     const PieceLanes all{slices.plane, summer.g2, summer.lobe.ior};
-    Lanes plain{}, schlick{}, dielectric{};
+    LaneSums sums;
     for (std::size_t first = 0; first < piece_count; first += batch_size) {
         const std::size_t count = std::min(batch_size, piece_count - first);
         const auto piece = [&](std::size_t i) -> const Piece& { return pieces[first + std::min(i, count - 1)]; };
@@ -144,15 +161,9 @@ LobeSums<Batch> sum_slices(const GgxSlices<Batch>& slices, const BatchMask& want
                                     gather([&](std::size_t i) { return piece(i).width; })};
         for_each_point<N>(picked.plane, batch,
                           [&](const GgxCapPoint<Batch>& point, const Batch& share) { along(point, share); });
-        const Lanes p = store(along.sums.plain), s = store(along.sums.schlick), d = store(along.sums.dielectric);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto to = static_cast<std::size_t>(lane[i]);
-            plain[to] += p[i];
-            schlick[to] += s[i];
-            dielectric[to] += d[i];
-        }
+        sums.add(along.sums, lane, count);
     }
-    return {load(plain), load(schlick), load(dielectric)};
+    return sums.load();
 }
 
 template <class T>

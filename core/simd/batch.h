@@ -113,4 +113,20 @@ Batches permute(const Batches& batches, const LaneIndex& index) {
     return result;
 }
 
+/// Lane i is lane index[i] of *sources[i], a struct of batches.
+template <class Batches>
+Batches collect(const std::array<const Batches*, batch_size>& sources, const LaneIndex& index) {
+    static_assert(std::is_trivially_copyable_v<Batches> && sizeof(Batches) % sizeof(Batch) == 0);
+    Batches result = *sources[0];
+    for (std::size_t at = 0; at < sizeof(Batches); at += sizeof(Batch)) {
+        Lanes lanes;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const auto* member = reinterpret_cast<const std::byte*>(sources[i]) + at;
+            std::memcpy(&lanes[i], member + static_cast<std::size_t>(index[i]) * sizeof(float), sizeof(float));
+        }
+        std::memcpy(reinterpret_cast<std::byte*>(&result) + at, lanes.data(), sizeof(Batch));
+    }
+    return result;
+}
+
 }  // namespace pivot

@@ -1,7 +1,7 @@
 // What shading one point by one light costs, in FLOP slots: time x the peak of single-precision FMA of the same thread
 // and instruction set, measured in the same run. Prints name,slots,nanoseconds lines; compiled by analytic.py.
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 #include <vector>
 
@@ -13,12 +13,13 @@ using namespace pivot;
 
 namespace {
 
+/// CPU time, which other work on the machine changes least.
 double seconds(const auto& body) {
     double best = 1e30;
     for (int repeat = 0; repeat < 5; ++repeat) {
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();
         body();
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     }
     return best;
 }
