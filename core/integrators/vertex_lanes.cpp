@@ -1,0 +1,130 @@
+#include "core/integrators/vertex_lanes.h"
+
+namespace pivot {
+namespace {
+
+/// A cap-shaped light as all kinds of them are.
+struct CapLight {
+    Vec3f center;  ///< of a sun: the direction towards it
+    float radius_m = 0.0f;
+    float sun_versine = 0.0f;  ///< above 0: this is a sun
+    Rgb radiance;
+    Vec3f spot_direction{0.0f};
+    float cos_edge = -2.0f;  ///< of a spot, where its falloff starts; others have fallen off nowhere
+    float falloff_width = 1.0f;
+};
+
+CapLight cap_light(const Light& light) {
+    if (const auto* sun = std::get_if<SunLight>(&light))
+        return {.center = sun->cap.axis, .sun_versine = sun->cap.versine, .radiance = sun->radiance};
+    const SphereLight& sphere = *sphere_of(light);
+    CapLight cap{.center = sphere.center, .radius_m = sphere.radius_m, .radiance = sphere.radiance};
+    if (const auto* spot = std::get_if<SpotLight>(&light)) {
+        cap.spot_direction = spot->direction;
+        cap.cos_edge = spot->cos_half_angle;
+        cap.falloff_width = spot_falloff_width(*spot);
+    }
+    return cap;
+}
+
+Vec3b times(const Vec3b& color, Batch factor) { return {color.x * factor, color.y * factor, color.z * factor}; }
+
+}  // namespace
+
+VertexLanes vertex_lanes(std::span<const Vertex> vertices) {
+    const auto lane = [&](std::size_t i) -> const Vertex& { return vertices[std::min(i, vertices.size() - 1)]; };
+    const auto point = [&](auto field) { return gather_vector([&](std::size_t i) { return lane(i).point.*field; }); };
+    const auto axis = [&](auto field) {
+        return gather_vector([&](std::size_t i) { return lane(i).point.frame.*field; });
+    };
+    const auto color = [&](auto field) {
+        return gather_vector([&](std::size_t i) { return lane(i).surface.fresnel.*field; });
+    };
+    VertexLanes lanes;
+    lanes.position = point(&SurfacePoint::position);
+    lanes.normal_geometric = point(&SurfacePoint::normal_geometric);
+    lanes.frame = {axis(&Frame<float>::x), axis(&Frame<float>::y), axis(&Frame<float>::z)};
+    lanes.error_m = gather([&](std::size_t i) { return lane(i).point.error_m; });
+    lanes.diffuse = gather_vector([&](std::size_t i) { return lane(i).surface.diffuse; });
+    lanes.schlick_f0 = color(&LobeFresnel::schlick_f0);
+    lanes.schlick_f90 = color(&LobeFresnel::schlick_f90);
+    lanes.dielectric_f0 = color(&LobeFresnel::dielectric_f0);
+    lanes.dielectric_f90 = color(&LobeFresnel::dielectric_f90);
+    lanes.ior = gather([&](std::size_t i) { return lane(i).surface.fresnel.ior; });
+    const auto mean = [](const Vec3b& c) { return (c.x + c.y + c.z) * Batch(1.0f / 3.0f); };
+    lanes.has_dielectric = any(mean(lanes.dielectric_f90) > Batch(0.0f));
+    lanes.surface = {.wo_local = point(&SurfacePoint::wo_local),
+                     .alpha = gather([&](std::size_t i) { return lane(i).surface.alpha; }),
+                     .diffuse = mean(lanes.diffuse),
+                     .fresnel_f0 = mean(lanes.schlick_f0 + lanes.dielectric_f0),
+                     .fresnel_f90 = mean(lanes.schlick_f90 + lanes.dielectric_f90)};
+    std::array<std::uint32_t, batch_size> pixel_seed, sample;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        pixel_seed[i] = lane(i).sampler.pixel_seed;
+        sample[i] = lane(i).sampler.sample;
+    }
+    lanes.sampler = {WordBatch::load_unaligned(pixel_seed.data()), WordBatch::load_unaligned(sample.data())};
+    return lanes;
+}
+
+LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const Light*>& lights, const Vec2b& u) {
+    LaneValues<CapLight> of_caps{.values = {}, .same = lights.same};
+    for (std::size_t i = 0; i < (lights.same ? 1 : batch_size); ++i) of_caps.values[i] = cap_light(*lights.values[i]);
+    const auto number = [&](auto field) { return of_caps.number([&](const CapLight& l) { return l.*field; }); };
+    const auto vector = [&](auto field) { return of_caps.vector([&](const CapLight& l) { return l.*field; }); };
+    const Vec3b center = vector(&CapLight::center), to_center = center - lanes.position;
+    const Batch radius = number(&CapLight::radius_m), sun_versine = number(&CapLight::sun_versine);
+    const BatchMask is_sun = sun_versine > Batch(0.0f);
+    const Cap<Batch> seen = cap_of_sphere(to_center, radius);
+    const Cap<Batch> cap{select(is_sun, center, seen.axis), select(is_sun, sun_versine, seen.versine)};
+
+    const JointSample<Batch> s =
+        sample_jointly(lanes.surface, Cap<Batch>{lanes.frame.to_local(cap.axis), cap.versine}, u);
+    const Batch cos_oh = Batch(0.5f) * length(lanes.surface.wo_local + s.wi_local);
+    const Vec3b wi = lanes.frame.to_world(s.wi_local);
+    const BatchMask faces = dot(wi, lanes.normal_geometric) > Batch(0.0f) && s.wi_local.z > Batch(0.0f);
+    const Batch cos_spot = -dot(wi, vector(&CapLight::spot_direction));
+    const Batch falloff = falloff_of((cos_spot - number(&CapLight::cos_edge)) / number(&CapLight::falloff_width));
+    const Vec3b reflected = times(lanes.diffuse, s.diffuse) + times(lanes.fresnel(cos_oh), s.glossy);
+    const Batch distance = distance_to_sphere(to_center, radius, wi);
+    return {.radiance = times(reflected * vector(&CapLight::radiance), select(faces, falloff, Batch(0.0f))),
+            .wi = wi,
+            .distance_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance),
+            .valid = s.valid};
+}
+
+LaneSamples sample_area_lights(const VertexLanes& lanes, const LaneValues<const AreaLight*>& lights, const Vec2b& u) {
+    const auto vector = [&](auto field) { return lights.vector([&](const AreaLight* l) { return l->*field; }); };
+    const Batch ellipse = lights.number([](const AreaLight* l) { return l->ellipse ? 1.0f : 0.0f; });
+    const AreaView<Batch> view{
+        .center = lanes.frame.to_local(vector(&AreaLight::center) - lanes.position),
+        .half_u = lanes.frame.to_local(vector(&AreaLight::half_u)),
+        .half_v = lanes.frame.to_local(vector(&AreaLight::half_v)),
+        .normal = lanes.frame.to_local(vector(&AreaLight::normal)),
+        .parallelogram_m2 = lights.number([](const AreaLight* l) { return parallelogram_m2(*l); }),
+        .ellipse = ellipse > Batch(0.5f),
+    };
+    const Batch zero(0.0f);
+    const BatchMask reached = dot(view.center, view.normal) < zero;
+    LaneSamples samples{.radiance = Vec3b(zero), .wi = lanes.frame.z, .distance_m = zero, .valid = zero == zero};
+    if (!any(reached)) return samples;
+    const AreaSampler<Batch> sampler(lanes.surface, view);
+    const Vec2b place = sampler.sample(u);
+    const auto seen = sampler.see(place.x, place.y);
+    samples.wi = lanes.frame.to_world(seen.wi);
+    samples.distance_m = seen.distance_m;
+    const BatchMask lit = reached && seen.wi.z > zero && dot(samples.wi, lanes.normal_geometric) > zero;
+    const Batch weight = select(lit, seen.omega_per_xy / max(sampler.pdf(place), tiny<Batch>), zero);
+    const Vec3b& wo = lanes.surface.wo_local;
+    const Batch alpha = lanes.surface.alpha, cos_i = max(seen.wi.z, Batch(1e-6f));
+    Vec3b reflected = times(lanes.diffuse, cos_i * Batch(1.0f / pi<float>));
+    if (any(lanes.surface.fresnel_f0 + lanes.surface.fresnel_f90 > zero)) {
+        const Vec3b above(seen.wi.x, seen.wi.y, cos_i);
+        const Batch cos_oh = Batch(0.5f) * length(wo + above);
+        reflected += times(lanes.fresnel(cos_oh), ggx_eval(wo, above, alpha, alpha));
+    }
+    samples.radiance = times(reflected * vector(&AreaLight::radiance), weight);
+    return samples;
+}
+
+}  // namespace pivot
