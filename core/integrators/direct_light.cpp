@@ -13,15 +13,20 @@ constexpr float shadow_reach = 1.0f - 1e-5f;
 
 /// A vertex's light sample: of which light, chosen how often, as which of the vertex' samples. Never: no sample.
 struct LightPick {
-    std::size_t light = 0;
-    float expected_samples = 0.0f;
-    std::size_t place = 0;
+    std::size_t light;
+    float expected_samples;
+    std::size_t place;
 };
 
 /// Light samples of a packet of vertices, that wait for their rays.
 struct LightSamples {
-    RayPacket rays{};
-    std::array<RayPacket::Values, 3> radiance{};
+    RayPacket rays;
+    std::array<RayPacket::Values, 3> radiance;
+
+    void clear() {
+        rays.far_m.fill(0.0f);
+        for (auto& component : radiance) component.fill(0.0f);
+    }
 
     void set(std::size_t lane, const SurfacePoint& point, const LightPoint& place, const Rgb& added) {
         const Vec3f origin = point.ray_origin(place.wi);
@@ -89,18 +94,19 @@ void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const 
         if (found == kinds.end()) return;
         // Of lanes of another kind, the batch computes what nobody reads.
         const LightPick& pick = picks[static_cast<std::size_t>(found - kinds.begin())];
+        const auto own = [&](std::size_t i) -> const LightPick& { return kinds[i] == kind ? picks[i] : pick; };
+        Lanes chosen{}, expected{};
         LaneValues<decltype(light_of(scene.lights()[0]))> lights{.values = {}, .same = true};
-        Lanes chosen{}, scale{};
         for (std::size_t i = 0; i < batch_size; ++i) {
-            const LightPick& own = kinds[i] == kind ? picks[i] : pick;
-            lights.values[i] = light_of(scene.lights()[own.light]);
-            lights.same = lights.same && own.light == pick.light;
             chosen[i] = kinds[i] == kind ? 1.0f : 0.0f;
-            scale[i] = 1.0f / own.expected_samples;
+            expected[i] = own(i).expected_samples;
+            lights.same = lights.same && own(i).light == pick.light;
         }
+        for (std::size_t i = 0; i < (lights.same ? 1 : batch_size); ++i)
+            lights.values[i] = light_of(scene.lights()[own(i).light]);
         const LaneSamples lit = sample_lights(lanes, lights, u);
         const BatchMask sampled = lit.valid && load(chosen) > Batch(0.0f);
-        samples.set(first, lanes, lit, sampled, load(scale));
+        samples.set(first, lanes, lit, sampled, Batch(1.0f) / load(expected));
         done = store(select(sampled, Batch(1.0f), load(done)));
     };
     sample_kind(
@@ -140,13 +146,12 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
                       std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
     for (std::size_t begin = 0; begin < vertices.size(); begin += RayPacket::width) {
         const auto packet = vertices.subspan(begin, std::min(RayPacket::width, vertices.size() - begin));
-        std::array<std::array<LightPick, RayPacket::width>, max_light_samples> picks{};  // [sample][vertex]
-        std::size_t rounds = 0;
+        std::array<std::array<LightPick, RayPacket::width>, max_light_samples> picks;  // [sample][vertex]
+        const std::size_t rounds = packet[0].light_samples;  // of all, as they are vertices of one bounce
         for (std::size_t i = 0; i < packet.size(); ++i) {
             std::array<LightPick, max_light_samples> own;
             const std::size_t count = pick_lights(scene, packet[i], own);
-            for (std::size_t k = 0; k < count; ++k) picks[k][i] = own[k];
-            rounds = std::max(rounds, count);
+            for (std::size_t k = 0; k < rounds; ++k) picks[k][i] = k < count ? own[k] : LightPick{0, 0.0f, k};
         }
         const auto shared = shares.subspan(begin, packet.size());
         std::array<VertexLanes, RayPacket::width / batch_size> lanes;
@@ -155,9 +160,11 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
         };
         for (std::size_t first = 0; first < packet.size() && strategy == LightSampling::joint; first += batch_size)
             lanes[first / batch_size] = vertex_lanes(batch_at(first));
+        std::array<RayPacket::Values, 3> sum{};
+        LightSamples samples{};
         for (std::size_t k = 0; k < rounds; ++k) {
             const std::span<const LightPick> round = picks[k];
-            LightSamples samples;
+            samples.clear();
             for (std::size_t first = 0; first < packet.size(); first += batch_size) {
                 if (strategy == LightSampling::joint) {
                     sample_batch(scene, lanes[first / batch_size], batch_at(first), round.subspan(first), first,
@@ -168,11 +175,10 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
                     shared[i] |= sample_light_at(scene, strategy, packet[i], round[i], i, samples);
             }
             const RayPacket::Values visibility = scene.visibility(samples.rays);
-            for (std::size_t i = 0; i < packet.size(); ++i) {
-                const Rgb added(samples.radiance[0][i], samples.radiance[1][i], samples.radiance[2][i]);
-                radiance[begin + i] += visibility[i] * added;
-            }
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < RayPacket::width; ++i) sum[c][i] += visibility[i] * samples.radiance[c][i];
         }
+        for (std::size_t i = 0; i < packet.size(); ++i) radiance[begin + i] += Rgb(sum[0][i], sum[1][i], sum[2][i]);
     }
 }
 

@@ -15,8 +15,8 @@ float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t lig
 /// MIS by the balance heuristic.
 inline float balance(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
 
-/// Light samples of each of the vertices, added to radiance[i]. shares[i]: whether vertex i's BSDF sample must be
-/// traced for some light.
+/// Light samples of each of the vertices, which take the same number, added to radiance[i]. shares[i]: whether vertex
+/// i's BSDF sample must be traced for some light.
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
                       std::span<Rgb> radiance, std::span<std::uint8_t> shares);
 

@@ -6,19 +6,20 @@ namespace {
 /// A cap-shaped light as all kinds of them are.
 struct CapLight {
     Vec3f center;  ///< of a sun: the direction towards it
-    float radius_m = 0.0f;
-    float sun_versine = 0.0f;  ///< above 0: this is a sun
+    float radius_m;
+    float sun_versine;  ///< above 0: this is a sun
     Rgb radiance;
-    Vec3f spot_direction{0.0f};
-    float cos_edge = -2.0f;  ///< of a spot, where its falloff starts; others have fallen off nowhere
-    float falloff_width = 1.0f;
+    Vec3f spot_direction;  ///< 0: not a spot
+    float cos_edge;        ///< where a spot's falloff starts
+    float falloff_width;
 };
 
 CapLight cap_light(const Light& light) {
+    constexpr float below_all = -2.0f;  // cosines: other lights fall off nowhere
     if (const auto* sun = std::get_if<SunLight>(&light))
-        return {.center = sun->cap.axis, .sun_versine = sun->cap.versine, .radiance = sun->radiance};
+        return {sun->cap.axis, 0.0f, sun->cap.versine, sun->radiance, Vec3f(0.0f), below_all, 1.0f};
     const SphereLight& sphere = *sphere_of(light);
-    CapLight cap{.center = sphere.center, .radius_m = sphere.radius_m, .radiance = sphere.radiance};
+    CapLight cap{sphere.center, sphere.radius_m, 0.0f, sphere.radiance, Vec3f(0.0f), below_all, 1.0f};
     if (const auto* spot = std::get_if<SpotLight>(&light)) {
         cap.spot_direction = spot->direction;
         cap.cos_edge = spot->cos_half_angle;
@@ -48,27 +49,31 @@ VertexLanes vertex_lanes(std::span<const Vertex> vertices) {
     lanes.diffuse = gather_vector([&](std::size_t i) { return lane(i).surface.diffuse; });
     lanes.schlick_f0 = color(&LobeFresnel::schlick_f0);
     lanes.schlick_f90 = color(&LobeFresnel::schlick_f90);
-    lanes.dielectric_f0 = color(&LobeFresnel::dielectric_f0);
-    lanes.dielectric_f90 = color(&LobeFresnel::dielectric_f90);
-    lanes.ior = gather([&](std::size_t i) { return lane(i).surface.fresnel.ior; });
+    lanes.has_dielectric = std::any_of(vertices.begin(), vertices.end(), [](const Vertex& v) {
+        return max_component(v.surface.fresnel.dielectric_f90) > 0.0f;
+    });
+    lanes.dielectric_f0 = lanes.dielectric_f90 = Vec3b(Batch(0.0f));
+    lanes.ior = Batch(1.5f);
+    if (lanes.has_dielectric) {
+        lanes.dielectric_f0 = color(&LobeFresnel::dielectric_f0);
+        lanes.dielectric_f90 = color(&LobeFresnel::dielectric_f90);
+        lanes.ior = gather([&](std::size_t i) { return lane(i).surface.fresnel.ior; });
+    }
     const auto mean = [](const Vec3b& c) { return (c.x + c.y + c.z) * Batch(1.0f / 3.0f); };
-    lanes.has_dielectric = any(mean(lanes.dielectric_f90) > Batch(0.0f));
     lanes.surface = {.wo_local = point(&SurfacePoint::wo_local),
                      .alpha = gather([&](std::size_t i) { return lane(i).surface.alpha; }),
                      .diffuse = mean(lanes.diffuse),
                      .fresnel_f0 = mean(lanes.schlick_f0 + lanes.dielectric_f0),
                      .fresnel_f90 = mean(lanes.schlick_f90 + lanes.dielectric_f90)};
-    std::array<std::uint32_t, batch_size> pixel_seed, sample;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        pixel_seed[i] = lane(i).sampler.pixel_seed;
-        sample[i] = lane(i).sampler.sample;
-    }
-    lanes.sampler = {WordBatch::load_unaligned(pixel_seed.data()), WordBatch::load_unaligned(sample.data())};
+    std::array<Sampler, batch_size> samplers;
+    for (std::size_t i = 0; i < batch_size; ++i) samplers[i] = lane(i).sampler;
+    lanes.sampler = sampler_lanes(samplers);
     return lanes;
 }
 
 LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const Light*>& lights, const Vec2b& u) {
-    LaneValues<CapLight> of_caps{.values = {}, .same = lights.same};
+    LaneValues<CapLight> of_caps;
+    of_caps.same = lights.same;
     for (std::size_t i = 0; i < (lights.same ? 1 : batch_size); ++i) of_caps.values[i] = cap_light(*lights.values[i]);
     const auto number = [&](auto field) { return of_caps.number([&](const CapLight& l) { return l.*field; }); };
     const auto vector = [&](auto field) { return of_caps.vector([&](const CapLight& l) { return l.*field; }); };

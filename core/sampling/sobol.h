@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/simd/batch.h"
 
@@ -73,5 +74,26 @@ struct SamplerOf {
 };
 
 using Sampler = SamplerOf<std::uint32_t>;
+
+/// As many samplers as a batch has lanes; past the end, the last again.
+inline SamplerOf<WordBatch> sampler_lanes(std::span<const Sampler> samplers) {
+    std::array<std::uint32_t, batch_size> pixel_seed, sample;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Sampler& sampler = samplers[std::min(i, samplers.size() - 1)];
+        pixel_seed[i] = sampler.pixel_seed;
+        sample[i] = sampler.sample;
+    }
+    return {WordBatch::load_unaligned(pixel_seed.data()), WordBatch::load_unaligned(sample.data())};
+}
+
+/// One point of each sampler.
+inline void sample_points(std::span<const Sampler> samplers, std::uint32_t dimension, std::span<Vec2f> points) {
+    for (std::size_t first = 0; first < samplers.size(); first += batch_size) {
+        const Vec2b u = sampler_lanes(samplers.subspan(first)).point(dimension);
+        const Lanes x = store(u.x), y = store(u.y);
+        for (std::size_t i = first; i < std::min(first + batch_size, samplers.size()); ++i)
+            points[i] = {x[i - first], y[i - first]};
+    }
+}
 
 }  // namespace pivot

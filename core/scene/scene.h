@@ -19,6 +19,7 @@ struct Instance {
     Transform world_from_object;
     std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
     std::uint32_t visibility;
+    Mat3<float> normal_matrix{1.0f};  ///< of world_from_object; the scene sets it
 };
 
 struct NamedLight {
