@@ -33,35 +33,42 @@ Vec3b times(const Vec3b& color, Batch factor) { return {color.x * factor, color.
 }  // namespace
 
 VertexLanes vertex_lanes(std::span<const Vertex> vertices) {
+    // As loads from one vertex to the next: filling a batch by way of memory waits for each store.
+    static_assert(sizeof(Vertex) % sizeof(float) == 0);
     const auto lane = [&](std::size_t i) -> const Vertex& { return vertices[std::min(i, vertices.size() - 1)]; };
-    const auto point = [&](auto field) { return gather_vector([&](std::size_t i) { return lane(i).point.*field; }); };
-    const auto axis = [&](auto field) {
-        return gather_vector([&](std::size_t i) { return lane(i).point.frame.*field; });
+    using Indices = xsimd::batch<std::int32_t>;
+    std::array<std::int32_t, batch_size> places;
+    for (std::size_t i = 0; i < batch_size; ++i)
+        places[i] = static_cast<std::int32_t>(std::min(i, vertices.size() - 1) * (sizeof(Vertex) / sizeof(float)));
+    const Indices indices = Indices::load_unaligned(places.data());
+    const auto number = [&](const float& of_first) { return Batch::gather(&of_first, indices); };
+    const auto vector = [&](const Vec3f& of_first) {
+        return Vec3b(number(of_first.x), number(of_first.y), number(of_first.z));
     };
-    const auto color = [&](auto field) {
-        return gather_vector([&](std::size_t i) { return lane(i).surface.fresnel.*field; });
-    };
+    const SurfacePoint& point = vertices[0].point;
+    const Surface& surface = vertices[0].surface;
+    const LobeFresnel& fresnel = surface.fresnel;
     VertexLanes lanes;
-    lanes.position = point(&SurfacePoint::position);
-    lanes.normal_geometric = point(&SurfacePoint::normal_geometric);
-    lanes.frame = {axis(&Frame<float>::x), axis(&Frame<float>::y), axis(&Frame<float>::z)};
-    lanes.error_m = gather([&](std::size_t i) { return lane(i).point.error_m; });
-    lanes.diffuse = gather_vector([&](std::size_t i) { return lane(i).surface.diffuse; });
-    lanes.schlick_f0 = color(&LobeFresnel::schlick_f0);
-    lanes.schlick_f90 = color(&LobeFresnel::schlick_f90);
+    lanes.position = vector(point.position);
+    lanes.normal_geometric = vector(point.normal_geometric);
+    lanes.frame = {vector(point.frame.x), vector(point.frame.y), vector(point.frame.z)};
+    lanes.error_m = number(point.error_m);
+    lanes.diffuse = vector(surface.diffuse);
+    lanes.schlick_f0 = vector(fresnel.schlick_f0);
+    lanes.schlick_f90 = vector(fresnel.schlick_f90);
     lanes.has_dielectric = std::any_of(vertices.begin(), vertices.end(), [](const Vertex& v) {
         return max_component(v.surface.fresnel.dielectric_f90) > 0.0f;
     });
     lanes.dielectric_f0 = lanes.dielectric_f90 = Vec3b(Batch(0.0f));
     lanes.ior = Batch(1.5f);
     if (lanes.has_dielectric) {
-        lanes.dielectric_f0 = color(&LobeFresnel::dielectric_f0);
-        lanes.dielectric_f90 = color(&LobeFresnel::dielectric_f90);
-        lanes.ior = gather([&](std::size_t i) { return lane(i).surface.fresnel.ior; });
+        lanes.dielectric_f0 = vector(fresnel.dielectric_f0);
+        lanes.dielectric_f90 = vector(fresnel.dielectric_f90);
+        lanes.ior = number(fresnel.ior);
     }
     const auto mean = [](const Vec3b& c) { return (c.x + c.y + c.z) * Batch(1.0f / 3.0f); };
-    lanes.surface = {.wo_local = point(&SurfacePoint::wo_local),
-                     .alpha = gather([&](std::size_t i) { return lane(i).surface.alpha; }),
+    lanes.surface = {.wo_local = vector(point.wo_local),
+                     .alpha = number(surface.alpha),
                      .diffuse = mean(lanes.diffuse),
                      .fresnel_f0 = mean(lanes.schlick_f0 + lanes.dielectric_f0),
                      .fresnel_f90 = mean(lanes.schlick_f90 + lanes.dielectric_f90)};
