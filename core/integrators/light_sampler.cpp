@@ -13,7 +13,6 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
                            LightSampling strategy)
     : light_(light),
       point_(point),
-      surface_(surface),
       cap_(cap_from(light, point.position)),
       shares_with_bsdf_(strategy != LightSampling::light) {
     if (strategy == LightSampling::bsdf) return;

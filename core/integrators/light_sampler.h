@@ -47,7 +47,6 @@ class LightSampler {
 
     const Light& light_;
     const SurfacePoint& point_;
-    const Surface& surface_;
     std::optional<AreaSampler<float>> area_;  ///< joint
     std::optional<Cap<float>> cap_;           ///< world space
     Cap<float> cap_local_{};
