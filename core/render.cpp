@@ -168,6 +168,7 @@ std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint3
     };
     // Paths of one pixel side by side, but analytic samples of one index: what they share goes together in a batch.
     std::vector<PixelSample> planned;
+    planned.reserve(row.size() * (last_sample - first_sample));
     if (analytic) {
         for (std::uint32_t index = first_sample; index < last_sample; ++index)
             for (std::size_t i = 0; i < row.size(); ++i) planned.push_back({i, index});
@@ -176,16 +177,22 @@ std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint3
             for (std::uint32_t index = first_sample; index < end_of(i); ++index) planned.push_back({i, index});
     }
     const int frame_x0 = camera.window.x0 + x0, frame_y = camera.window.y0 + y;
-    std::vector<Ray> rays;
     std::vector<Sampler> samplers;
+    samplers.reserve(planned.size());
     for (const auto& [pixel, index] : planned) {
-        const int frame_x = frame_x0 + static_cast<int>(pixel);
-        const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
         // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for
         // all.
-        const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
+        const std::uint32_t place =
+            hash(static_cast<std::uint32_t>(frame_x0 + static_cast<int>(pixel)), static_cast<std::uint32_t>(frame_y));
         samplers.emplace_back(analytic ? 0u : hash(place, settings_.seed), index);
-        rays.push_back(camera.ray(center + filter_.sample(samplers.back().point(0))));
+    }
+    std::vector<Vec2f> in_pixel(planned.size());
+    sample_points(samplers, 0, in_pixel);
+    std::vector<Ray> rays(planned.size());
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        const int frame_x = frame_x0 + static_cast<int>(planned[i].pixel);
+        const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
+        rays[i] = camera.ray(center + filter_.sample(in_pixel[i]));
     }
     std::vector<Sample> samples(rays.size());
     if (analytic) {

@@ -18,6 +18,18 @@ Rgb multiscatter_scale(const Rgb& mean_fresnel, float albedo, float mean_albedo)
     return Rgb(1.0f) + bounces * ((1.0f - albedo) / albedo);
 }
 
+/// Of the GGX lobe towards wo, over what it would reflect without Fresnel.
+Rgb mean_fresnel(const Surface& surface) {
+    const LobeFresnel& fresnel = surface.fresnel;
+    const float cos_o = surface.wo_local.z;
+    Rgb mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * schlick_weight(cos_o);
+    if (max_component(fresnel.dielectric_f90) > 0.0f) {
+        const float share = ggx_dielectric_weight(surface.alpha, cos_o, fresnel.ior);
+        mean += fresnel.dielectric_f0 + (fresnel.dielectric_f90 - fresnel.dielectric_f0) * share;
+    }
+    return mean;
+}
+
 }  // namespace
 
 Rgb LobeFresnel::at(float cos_theta) const {
@@ -39,7 +51,7 @@ Surface make_surface(const Material& material, const Vec3f& wo_local) {
     if (!material.has_glossy()) return surface;
 
     const float albedo = ggx_albedo(surface.alpha, wo_local.z);
-    const float mean_albedo = ggx_average_albedo(surface.alpha);
+    const float mean_albedo = material.multiscatter ? ggx_average_albedo(surface.alpha) : 1.0f;
     fresnel.schlick_f0 = material.conductor_f0;
     fresnel.schlick_f90 = material.conductor_f90;
     if (material.multiscatter && max_component(fresnel.schlick_f90) > 0.0f) {
@@ -71,7 +83,7 @@ Surface make_surface(const Material& material, const Vec3f& wo_local) {
         fresnel.dielectric_f0 = scale * tinted_f0;
         fresnel.dielectric_f90 = scale;
     }
-    const float glossy = mean_component(glossy_albedo(surface));
+    const float glossy = mean_component(mean_fresnel(surface)) * albedo;
     const float diffuse = mean_component(surface.diffuse);
     if (glossy > 0.0f) surface.glossy_probability = glossy / (glossy + diffuse);
     // A faint lobe keeps a share of the samples: its peak may be far above its mean.
@@ -81,14 +93,7 @@ Surface make_surface(const Material& material, const Vec3f& wo_local) {
 }
 
 Rgb glossy_albedo(const Surface& surface) {
-    const LobeFresnel& fresnel = surface.fresnel;
-    const float cos_o = surface.wo_local.z;
-    Rgb mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * schlick_weight(cos_o);
-    if (max_component(fresnel.dielectric_f90) > 0.0f) {
-        const float share = ggx_dielectric_weight(surface.alpha, cos_o, fresnel.ior);
-        mean += fresnel.dielectric_f0 + (fresnel.dielectric_f90 - fresnel.dielectric_f0) * share;
-    }
-    return mean * ggx_albedo(surface.alpha, cos_o);
+    return mean_fresnel(surface) * ggx_albedo(surface.alpha, surface.wo_local.z);
 }
 
 Rgb eval_diffuse(const Surface& surface, const Vec3f& wi_local) {

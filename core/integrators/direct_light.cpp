@@ -1,24 +1,15 @@
 #include "core/integrators/direct_light.h"
 
-#include "core/simd/batch.h"
-// clang-format off: templates that follow must see batches
-#include "core/integrators/joint_sampling.h"
-// clang-format on
+#include "core/integrators/vertex_lanes.h"
 
 namespace pivot {
 namespace {
 
-Ray shadow_ray(const SurfacePoint& point, const LightPoint& place) {
-    // The light's own surface is no occluder; a mesh that touches it should not become one by rounding.
-    return {point.ray_origin(place.wi), place.wi, 0.0f, place.distance_m * (1.0f - 1e-5f)};
-}
+static_assert(RayPacket::width % batch_size == 0);
 
-/// What a light sample adds if its ray is free.
-struct LightCandidate {
-    Rgb radiance{0.0f};  ///< 0: there is no ray to trace
-    Ray ray;
-    bool shares_with_bsdf = false;  ///< whether BSDF samples must be traced for this light
-};
+/// Lights end their shadow rays a little early: their own surface is no occluder, nor should a mesh that touches it
+/// become one by rounding.
+constexpr float shadow_reach = 1.0f - 1e-5f;
 
 /// A vertex's light sample: of which light, chosen how often, as which of the vertex' samples. Never: no sample.
 struct LightPick {
@@ -27,106 +18,104 @@ struct LightPick {
     std::size_t place;
 };
 
-/// Rays that wait for each other, and what each adds where.
-class ShadowQueue {
-   public:
-    void push(std::size_t vertex, const LightCandidate& candidate) {
-        if (!(max_component(candidate.radiance) > 0.0f)) return;
-        rays_.push_back(candidate.ray);
-        added_.push_back({vertex, candidate.radiance});
+/// Light samples of a packet of vertices, that wait for their rays.
+struct LightSamples {
+    RayPacket rays;
+    std::array<RayPacket::Values, 3> radiance;
+
+    void clear() {
+        rays.far_m.fill(0.0f);
+        for (auto& component : radiance) component.fill(0.0f);
     }
 
-    void trace(const Scene& scene, std::span<Rgb> radiance) {
-        std::vector<std::uint8_t> occluded(rays_.size());
-        scene.occluded(rays_, occluded);
-        for (std::size_t i = 0; i < rays_.size(); ++i) {
-            if (!occluded[i]) radiance[added_[i].vertex] += added_[i].radiance;
-        }
-        rays_.clear();
-        added_.clear();
+    void set(std::size_t lane, const SurfacePoint& point, const LightPoint& place, const Rgb& added) {
+        const Vec3f origin = point.ray_origin(place.wi);
+        rays.origin_x[lane] = origin.x, rays.origin_y[lane] = origin.y, rays.origin_z[lane] = origin.z;
+        rays.direction_x[lane] = place.wi.x, rays.direction_y[lane] = place.wi.y, rays.direction_z[lane] = place.wi.z;
+        rays.far_m[lane] = max_component(added) > 0.0f ? place.distance_m * shadow_reach : 0.0f;
+        for (int k = 0; k < 3; ++k) radiance[static_cast<std::size_t>(k)][lane] = added[k];
     }
 
-   private:
-    struct Added {
-        std::size_t vertex;
-        Rgb radiance;
-    };
-    std::vector<Ray> rays_;
-    std::vector<Added> added_;
-};
-
-/// Vertices as the lanes of a batch; lanes past the end repeat the last.
-struct VertexLanes {
-    std::span<const Vertex> vertices;
-    JointSurface<Batch> surface;
-
-    explicit VertexLanes(std::span<const Vertex> lanes) : vertices(lanes) {
-        const auto vertex = [&](std::size_t i) -> const Vertex& { return lanes[std::min(i, lanes.size() - 1)]; };
-        const auto fresnel = [&](std::size_t i) -> const LobeFresnel& { return vertex(i).surface.fresnel; };
-        surface.wo_local = gather_vector([&](std::size_t i) { return vertex(i).point.wo_local; });
-        surface.alpha = gather([&](std::size_t i) { return vertex(i).surface.alpha; });
-        surface.diffuse = gather([&](std::size_t i) { return mean_component(vertex(i).surface.diffuse); });
-        surface.fresnel_f0 =
-            gather([&](std::size_t i) { return mean_component(fresnel(i).schlick_f0 + fresnel(i).dielectric_f0); });
-        surface.fresnel_f90 =
-            gather([&](std::size_t i) { return mean_component(fresnel(i).schlick_f90 + fresnel(i).dielectric_f90); });
+    /// The lanes where `chosen`, from `first` on.
+    void set(std::size_t first, const VertexLanes& lanes, const LaneSamples& samples, const BatchMask& chosen,
+             Batch scale) {
+        const auto put = [&](Batch value, RayPacket::Values& to) {
+            select(chosen, value, Batch::load_unaligned(&to[first])).store_unaligned(&to[first]);
+        };
+        const auto put3 = [&](const Vec3b& v, RayPacket::Values& x, RayPacket::Values& y, RayPacket::Values& z) {
+            put(v.x, x), put(v.y, y), put(v.z, z);
+        };
+        const Vec3b added(samples.radiance.x * scale, samples.radiance.y * scale, samples.radiance.z * scale);
+        const Batch far_m = select(max(max(added.x, added.y), added.z) > Batch(0.0f),
+                                   samples.distance_m * Batch(shadow_reach), Batch(0.0f));
+        put3(lanes.position + lanes.error_m * lanes.normal_geometric, rays.origin_x, rays.origin_y, rays.origin_z);
+        put3(samples.wi, rays.direction_x, rays.direction_y, rays.direction_z);
+        put3(added, radiance[0], radiance[1], radiance[2]);
+        put(far_m, rays.far_m);
     }
 };
 
-LightCandidate sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex,
-                               const LightPick& pick) {
+/// A light sample of one vertex; whether BSDF samples must be traced for this light.
+bool sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex, const LightPick& pick,
+                     std::size_t lane, LightSamples& samples) {
+    if (!(pick.expected_samples > 0.0f)) return false;
     const LightSampler light(scene.lights()[pick.light], vertex.point, vertex.surface, strategy);
-    LightCandidate candidate{.ray = {}, .shares_with_bsdf = light.shares_with_bsdf()};
     const auto place = light.sample(vertex.sampler.point(vertex.dimensions.light_place(pick.place)));
-    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return candidate;
+    const bool shares = light.shares_with_bsdf();
+    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return shares;
     const float pdf = pick.expected_samples * place->pdf_omega;
     const Vec3f wi_local = vertex.point.frame.to_local(place->wi);
-    const float weight = candidate.shares_with_bsdf ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
-    candidate.radiance = weight * eval(vertex.surface, wi_local) * place->radiance / pdf;
-    candidate.ray = shadow_ray(vertex.point, *place);
-    return candidate;
+    const float weight = shares ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
+    samples.set(lane, vertex.point, *place, weight * eval(vertex.surface, wi_local) * place->radiance / pdf);
+    return shares;
 }
 
-/// A joint sample by each lane, of its own light; lanes that the closed forms leave out are sampled one by one.
-void sample_lanes(const Scene& scene, const VertexLanes& lanes, std::span<const LightPick> picks, std::size_t first,
-                  ShadowQueue& queue, std::span<std::uint8_t> shares) {
-    Lanes u_x, u_y, axis_x, axis_y, axis_z, versine;
-    std::array<std::optional<Cap<float>>, batch_size> caps;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const std::size_t lane = std::min(i, lanes.vertices.size() - 1);
-        const Vertex& v = lanes.vertices[lane];
-        const LightPick& pick = picks[lane];
-        // Of an area light the lane computes what nobody reads.
-        caps[i] = cap_from(scene.lights()[pick.light], v.point.position);
-        const Cap<float> cap = caps[i].value_or(Cap<float>{v.point.frame.z, 0.5f});
-        const Vec3f axis_local = v.point.frame.to_local(cap.axis);
-        axis_x[i] = axis_local.x, axis_y[i] = axis_local.y, axis_z[i] = axis_local.z, versine[i] = cap.versine;
-        const Vec2f u = v.sampler.point(v.dimensions.light_place(pick.place));
-        u_x[i] = u.x, u_y[i] = u.y;
+/// Kinds of light as batches tell them apart.
+enum class Kind { none, cap, area, near_area };
+
+Kind kind_of(const Light& light, const SurfacePoint& point) {
+    const auto* area = std::get_if<AreaLight>(&light);
+    return !area ? Kind::cap : is_near(*area, point.position) ? Kind::near_area : Kind::area;
+}
+
+/// A joint sample by each of a batch of vertices, each of its own light, from lane `first` of the packet on; those
+/// that the closed forms leave out are sampled one by one.
+void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const Vertex> vertices,
+                  std::span<const LightPick> picks, std::size_t first, LightSamples& samples,
+                  std::span<std::uint8_t> shares) {
+    const Vec2b u = lanes.sampler.point(vertices[0].dimensions.light_place(picks[0].place));
+    std::array<Kind, batch_size> kinds{};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (picks[i].expected_samples > 0.0f) kinds[i] = kind_of(scene.lights()[picks[i].light], vertices[i].point);
     }
-    const Cap<Batch> cap_local{{load(axis_x), load(axis_y), load(axis_z)}, load(versine)};
-    const JointSample<Batch> s = sample_jointly(lanes.surface, cap_local, {load(u_x), load(u_y)});
-    const Lanes wi_x = store(s.wi_local.x), wi_y = store(s.wi_local.y), wi_z = store(s.wi_local.z);
-    const Lanes cos_oh = store(dot(lanes.surface.wo_local, normalize(lanes.surface.wo_local + s.wi_local)));
-    const Lanes diffuse = store(s.diffuse), glossy = store(s.glossy);
-    const Lanes valid = store(select(s.valid, Batch(1.0f), Batch(0.0f)));
-    for (std::size_t lane = 0; lane < lanes.vertices.size(); ++lane) {
-        const Vertex& v = lanes.vertices[lane];
-        const LightPick& pick = picks[lane];
-        if (!(pick.expected_samples > 0.0f)) continue;
-        if (!caps[lane] || valid[lane] == 0.0f) {
-            const LightCandidate candidate = sample_light_at(scene, LightSampling::joint, v, pick);
-            shares[first + lane] |= candidate.shares_with_bsdf;
-            queue.push(first + lane, candidate);
-            continue;
+    Lanes done{};
+    const auto sample_kind = [&](Kind kind, const auto& light_of, const auto& sample_lights) {
+        const auto found = std::find(kinds.begin(), kinds.end(), kind);
+        if (found == kinds.end()) return;
+        // Of lanes of another kind, the batch computes what nobody reads.
+        const LightPick& pick = picks[static_cast<std::size_t>(found - kinds.begin())];
+        const auto own = [&](std::size_t i) -> const LightPick& { return kinds[i] == kind ? picks[i] : pick; };
+        Lanes chosen{}, expected{};
+        LaneValues<decltype(light_of(scene.lights()[0]))> lights{.values = {}, .same = true};
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            chosen[i] = kinds[i] == kind ? 1.0f : 0.0f;
+            expected[i] = own(i).expected_samples;
+            lights.same = lights.same && own(i).light == pick.light;
         }
-        const Vec3f wi = v.point.frame.to_world({wi_x[lane], wi_y[lane], wi_z[lane]});
-        if (!v.point.faces(wi)) continue;
-        Rgb reflected = v.surface.diffuse * diffuse[lane];
-        if (glossy[lane] > 0.0f) reflected += v.surface.fresnel.at(cos_oh[lane]) * glossy[lane];
-        const LightPoint place = light_point_in_cap(scene.lights()[pick.light], *caps[lane], v.point.position, wi);
-        queue.push(first + lane,
-                   {.radiance = reflected * place.radiance / pick.expected_samples, .ray = shadow_ray(v.point, place)});
+        for (std::size_t i = 0; i < (lights.same ? 1 : batch_size); ++i)
+            lights.values[i] = light_of(scene.lights()[own(i).light]);
+        const LaneSamples lit = sample_lights(lanes, lights, u);
+        const BatchMask sampled = lit.valid && load(chosen) > Batch(0.0f);
+        samples.set(first, lanes, lit, sampled, Batch(1.0f) / load(expected));
+        done = store(select(sampled, Batch(1.0f), load(done)));
+    };
+    sample_kind(
+        Kind::cap, [](const Light& light) { return &light; }, sample_cap_lights);
+    sample_kind(
+        Kind::area, [](const Light& light) { return &std::get<AreaLight>(light); }, sample_area_lights);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (kinds[i] != Kind::none && done[i] == 0.0f)
+            shares[i] |= sample_light_at(scene, LightSampling::joint, vertices[i], picks[i], first + i, samples);
     }
 }
 
@@ -155,35 +144,42 @@ float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t lig
 
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
                       std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
-    ShadowQueue queue;
-    for (std::size_t first = 0; first < vertices.size(); first += batch_size) {
-        const auto group = vertices.subspan(first, std::min(batch_size, vertices.size() - first));
-        std::array<std::array<LightPick, max_light_samples>, batch_size> picks;
-        std::array<std::size_t, batch_size> counts{};
-        for (std::size_t lane = 0; lane < group.size(); ++lane) {
-            counts[lane] = pick_lights(scene, group[lane], picks[lane]);
+    for (std::size_t begin = 0; begin < vertices.size(); begin += RayPacket::width) {
+        const auto packet = vertices.subspan(begin, std::min(RayPacket::width, vertices.size() - begin));
+        std::array<std::array<LightPick, RayPacket::width>, max_light_samples> picks;  // [sample][vertex]
+        const std::size_t rounds = packet[0].light_samples;  // of all, as they are vertices of one bounce
+        for (std::size_t i = 0; i < packet.size(); ++i) {
+            std::array<LightPick, max_light_samples> own;
+            const std::size_t count = pick_lights(scene, packet[i], own);
+            for (std::size_t k = 0; k < rounds; ++k) picks[k][i] = k < count ? own[k] : LightPick{0, 0.0f, k};
         }
-        if (strategy == LightSampling::joint) {
-            const VertexLanes lanes(group);
-            const std::size_t rounds = *std::max_element(counts.begin(), counts.end());
-            for (std::size_t k = 0; k < rounds; ++k) {
-                std::array<LightPick, batch_size> round;
-                for (std::size_t lane = 0; lane < group.size(); ++lane) {
-                    round[lane] = k < counts[lane] ? picks[lane][k] : LightPick{0, 0.0f, k};
+        const auto shared = shares.subspan(begin, packet.size());
+        std::array<VertexLanes, RayPacket::width / batch_size> lanes;
+        const auto batch_at = [&](std::size_t first) {
+            return packet.subspan(first, std::min(batch_size, packet.size() - first));
+        };
+        for (std::size_t first = 0; first < packet.size() && strategy == LightSampling::joint; first += batch_size)
+            lanes[first / batch_size] = vertex_lanes(batch_at(first));
+        std::array<RayPacket::Values, 3> sum{};
+        LightSamples samples{};
+        for (std::size_t k = 0; k < rounds; ++k) {
+            const std::span<const LightPick> round = picks[k];
+            samples.clear();
+            for (std::size_t first = 0; first < packet.size(); first += batch_size) {
+                if (strategy == LightSampling::joint) {
+                    sample_batch(scene, lanes[first / batch_size], batch_at(first), round.subspan(first), first,
+                                 samples, shared.subspan(first));
+                    continue;
                 }
-                sample_lanes(scene, lanes, round, first, queue, shares);
+                for (std::size_t i = first; i < first + batch_at(first).size(); ++i)
+                    shared[i] |= sample_light_at(scene, strategy, packet[i], round[i], i, samples);
             }
-            continue;
+            const RayPacket::Values visibility = scene.visibility(samples.rays);
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < RayPacket::width; ++i) sum[c][i] += visibility[i] * samples.radiance[c][i];
         }
-        for (std::size_t lane = 0; lane < group.size(); ++lane) {
-            for (std::size_t k = 0; k < counts[lane]; ++k) {
-                const LightCandidate candidate = sample_light_at(scene, strategy, group[lane], picks[lane][k]);
-                shares[first + lane] |= candidate.shares_with_bsdf;
-                queue.push(first + lane, candidate);
-            }
-        }
+        for (std::size_t i = 0; i < packet.size(); ++i) radiance[begin + i] += Rgb(sum[0][i], sum[1][i], sum[2][i]);
     }
-    queue.trace(scene, radiance);
 }
 
 }  // namespace pivot

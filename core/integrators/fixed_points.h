@@ -31,7 +31,7 @@ class FixedPoints {
 
     /// Point k of `count` points of a set.
     Vec2f point(PointSet set, std::uint32_t k, std::uint32_t count) const {
-        return Sampler(0u, sample_index_ * count + k).point(static_cast<std::uint32_t>(set));
+        return Sampler{0u, sample_index_ * count + k}.point(static_cast<std::uint32_t>(set));
     }
 
    private:

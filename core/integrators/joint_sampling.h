@@ -47,13 +47,38 @@ Vec3<T> project_to_cap(const Cap<T>& cap, const Vec2<T>& disk, T room) {
 
 }  // namespace detail
 
-/// u in [0, 1)^2; its first number also chooses the lobe.
+/// u in [0, 1)^2; its first number also chooses the lobe. A lobe that no lane has costs nothing.
 template <class T>
 JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap, const Vec2<T>& u) {
     const Mask<T> has_diffuse = surface.diffuse > T(0), has_glossy = surface.fresnel_f0 + surface.fresnel_f90 > T(0);
-    const GgxCap<T> g = ggx_cap(surface.wo_local, cap, surface.alpha, surface.alpha);
+    const bool any_diffuse = any(has_diffuse || !has_glossy);
     const T sin2_psi = sin2_half_angle(cap);
     const Mask<T> above = cap.axis.z > T(0) && cap.axis.z * cap.axis.z >= sin2_psi && cap.versine < T(1);
+    const auto in_disk = [](T u_x, T u_y) {
+        const T radius = sqrt(u_x), phi = T(2) * pi<T> * u_y;
+        return Vec2<T>(radius * cos(phi), radius * sin(phi));
+    };
+    JointSample<T> s;
+    if (!any(has_glossy)) {
+        s.wi_local = detail::project_to_cap(cap, in_disk(u.x, u.y), T(1) - u.x);
+        s.diffuse = select(has_diffuse, sin2_psi * cap.axis.z, T(0));
+        s.glossy = T(0);
+        s.valid = above || !has_diffuse;
+        return s;
+    }
+    const GgxCap<T> g = ggx_cap(surface.wo_local, cap, surface.alpha, surface.alpha);
+    const auto masked = [&](T d) {
+        return select(has_glossy && s.wi_local.z > T(0),
+                      d * ggx_g2(surface.wo_local, s.wi_local, surface.alpha, surface.alpha), T(0));
+    };
+    if (!any_diffuse) {  // the density cancels
+        const GgxCapPoint<T> lit = disk_point(g, ellipse_axes(g), in_disk(u.x, u.y), T(1) - u.x);
+        s.wi_local = lit.omega_i;
+        s.diffuse = T(0);
+        s.glossy = masked(lit.weight);
+        s.valid = g.valid;
+        return s;
+    }
 
     const T diffuse_share = surface.diffuse * cap.axis.z * sin2_psi;
     const T fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(g.cos_half));
@@ -64,11 +89,9 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
 
     const Mask<T> is_glossy = u.x < p_glossy;
     const T u_x = select(is_glossy, u.x / max(p_glossy, tiny<T>), (u.x - p_glossy) / max(T(1) - p_glossy, tiny<T>));
-    const T radius = sqrt(u_x), phi = T(2) * pi<T> * u.y;
-    const Vec2<T> disk(radius * cos(phi), radius * sin(phi));
+    const Vec2<T> disk = in_disk(u_x, u.y);
     const GgxCapPoint<T> lit = disk_point(g, ellipse_axes(g), disk, T(1) - u_x);
 
-    JointSample<T> s;
     s.wi_local = select(is_glossy, lit.omega_i, detail::project_to_cap(cap, disk, T(1) - u_x));
     s.valid = (above || !has_diffuse) && (g.valid || !has_glossy);
     const T cos_i = max(s.wi_local.z, T(0));
@@ -82,8 +105,7 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
     // Of the glossy lobe alone the density cancels.
     const T d = select(has_diffuse, ndf / safe_pdf, lit.weight);
     s.diffuse = select(has_diffuse, cos_i / (pi<T> * safe_pdf), T(0));
-    s.glossy = select(has_glossy && s.wi_local.z > T(0),
-                      d * ggx_g2(surface.wo_local, s.wi_local, surface.alpha, surface.alpha), T(0));
+    s.glossy = masked(d);
     return s;
 }
 

@@ -3,9 +3,6 @@
 #include <numeric>
 
 #include "core/simd/batch.h"
-// clang-format off: templates that follow must see batches
-#include "core/integrators/joint_sampling.h"
-// clang-format on
 
 namespace pivot {
 namespace {
@@ -97,13 +94,13 @@ LightProxies::Values light_importance(const SurfacePoint& point, const Surface& 
         const Batch cos_surface = min(max(local.axis.z, Batch(0.5f) * (local.axis.z + sine)), one);
         Batch reflected = diffuse * cos_surface * sin2;
         if (surface.has_glossy()) {
-            const GgxCap<Batch> g = ggx_cap(wo, local, alpha, alpha);
-            const Batch fresnel = lerp(f0, f90, schlick_weight(g.cos_half));
-            // Across the horizon the closed form is not known: the lobe's density at the centre, but no less than if it
-            // were even.
-            const Batch density = ggx_ndf(normalize(wo + local.axis), alpha, alpha) / (Batch(4.0f) * wo.z);
-            const Batch guess = min(max(density * solid_angle(local), local.versine), one);
-            reflected += fresnel * select(g.valid, min(g.integral, one), guess);
+            // The lobe at the light's centre, wider by the light: what ggx_cap integrates, to some ten per cent.
+            const Vec3b h = wo + local.axis;
+            const Batch h2 = dot(h, h), alpha2 = alpha * alpha + Batch(0.25f) * sin2;
+            const Batch slope = (h.x * h.x + h.y * h.y + alpha2 * h.z * h.z) / max(h2, tiny<Batch>);
+            const Batch fresnel = lerp(f0, f90, schlick_weight(Batch(0.5f) * sqrt(h2)));
+            const Batch density = alpha2 / max(Batch(4.0f * pi<float>) * wo.z * slope * slope, tiny<Batch>);
+            reflected += fresnel * min(density * solid_angle(local), one);
         }
         reflected = select(local.axis.z + sine > zero, reflected, zero);
         const Batch result = reflected * lit * load_at(proxies.radiance, first);

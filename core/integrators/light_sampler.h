@@ -13,12 +13,13 @@
 //   bsdf     -                    -                                    BSDF samples alone
 //
 // An area light is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF
-// samples where these are larger than the lobe; else uniformly by area, sharing in every strategy but light.
+// samples where it is near; else uniformly by area, sharing in every strategy but light.
 #pragma once
 
 #include "core/distributions/elliptic_cone.h"
 #include "core/distributions/projected_cap.h"
 #include "core/distributions/sptd.h"
+#include "core/integrators/area_sampling.h"
 #include "core/integrators/settings.h"
 #include "core/lights/light.h"
 #include "core/scene/surface_point.h"
@@ -46,9 +47,8 @@ class LightSampler {
 
     const Light& light_;
     const SurfacePoint& point_;
-    const Surface& surface_;
-    const AreaLight* joint_area_ = nullptr;  ///< the light, where its parts are chosen among
-    std::optional<Cap<float>> cap_;          ///< world space
+    std::optional<AreaSampler<float>> area_;  ///< joint
+    std::optional<Cap<float>> cap_;           ///< world space
     Cap<float> cap_local_{};
     Technique diffuse_technique_ = Technique::none;
     Technique glossy_technique_ = Technique::none;

@@ -79,6 +79,8 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     scene.intersect(camera_rays, visible_to_camera, hits);
     std::vector<Vertex> vertices;
     std::vector<std::size_t> places;  // of the vertices' samples
+    vertices.reserve(camera_rays.size());
+    places.reserve(camera_rays.size());
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = samples[i];
         sample = {};
@@ -87,19 +89,20 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
             if (!settings.transparent_film) sample.radiance = scene.world();
             continue;
         }
-        const SurfacePoint point = scene.surface_point(camera_rays[i], *hits[i]);
-        const Material& material = *point.material;
-        const Surface surface = make_surface(material, point.wo_local);
-        sample.radiance = material.emission;
-        sample.normal = point.frame.z;
-        sample.albedo = surface.diffuse;
-        sample.emission = material.emission;
+        const Vertex vertex{
+            .sampler = samplers[i],
+            .point = scene.surface_point(camera_rays[i], *hits[i]),
+            .surface = make_surface(*vertex.point.material, vertex.point.wo_local),
+            .dimensions = Dimensions(0),
+            .light_samples = std::min(scene.lights().size(), max_light_samples),
+        };
+        const Rgb emission = vertex.point.material->emission;
+        sample.radiance = emission;
+        sample.normal = vertex.point.frame.z;
+        sample.albedo = vertex.surface.diffuse;
+        sample.emission = emission;
         places.push_back(i);
-        vertices.push_back({.sampler = samplers[i],
-                            .point = point,
-                            .surface = surface,
-                            .dimensions = Dimensions(0),
-                            .light_samples = std::min(scene.lights().size(), max_light_samples)});
+        vertices.push_back(vertex);
     }
     std::vector<Rgb> direct(vertices.size(), Rgb(0.0f));
     std::vector<std::uint8_t> shares(vertices.size(), 0);

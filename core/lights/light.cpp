@@ -24,15 +24,6 @@ void require_color(const Rgb& c, const char* message) {
     require(is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f, message);
 }
 
-/// To the near side of the sphere, or to its far side from within.
-float distance_to_sphere(const SphereLight& sphere, const Vec3f& point, const Vec3f& wi) {
-    const Vec3f d = sphere.center - point;
-    const float along = dot(d, wi);
-    const float half_chord = safe_sqrt(sqr(sphere.radius_m) - length_squared(d - along * wi));
-    const float distance_m = length_squared(d) > sqr(sphere.radius_m) ? along - half_chord : along + half_chord;
-    return std::max(distance_m, 0.0f);  // a receiver that touches the sphere
-}
-
 std::optional<LightPoint> area_light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
     const float cos_light = -dot(wi, light.normal);
     if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
@@ -133,7 +124,7 @@ std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point
 
 float distance_to_light(const Light& light, const Vec3f& point, const Vec3f& wi) {
     const SphereLight* sphere = sphere_of(light);
-    return sphere ? distance_to_sphere(*sphere, point, wi) : infinity;
+    return sphere ? distance_to_sphere(sphere->center - point, sphere->radius_m, wi) : infinity;
 }
 
 LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi) {
@@ -142,7 +133,7 @@ LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const V
     const SphereLight& sphere = *sphere_of(light);
     const auto* spot = std::get_if<SpotLight>(&light);
     const Rgb radiance = spot ? sphere.radiance * spot_falloff(*spot, -dot(wi, spot->direction)) : sphere.radiance;
-    return {wi, distance_to_sphere(sphere, point, wi), radiance, pdf_omega};
+    return {wi, distance_to_sphere(sphere.center - point, sphere.radius_m, wi), radiance, pdf_omega};
 }
 
 }  // namespace pivot

@@ -56,13 +56,35 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
 /// A place in the light's plane along half_u and half_v: within [-1, 1]^2 or the unit disk on the light.
 Vec2f area_coordinates(const AreaLight& light, const Vec3f& place);
 
+/// The range of cosines over which a spot falls off.
+inline float spot_falloff_width(const SpotLight& spot) {
+    return std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f);
+}
+
+/// Falloff of a spot, 0..1, at a part of that range from its edge.
+template <class T>
+T falloff_of(T part) {
+    const T t = clamp01(part);
+    return t * t * (T(3.0f) - T(2.0f) * t);
+}
+
 /// Falloff of a spot, 0..1, towards a point; cosine: of the angle between there and where the spot shines.
 template <class T>
 T spot_falloff(const SpotLight& spot, T cosine) {
-    const float width = std::max((1.0f - spot.cos_half_angle) * spot.blend, 1e-6f);
-    const T t = clamp01((cosine - T(spot.cos_half_angle)) / T(width));
-    return t * t * (T(3.0f) - T(2.0f) * t);
+    return falloff_of((cosine - T(spot.cos_half_angle)) / T(spot_falloff_width(spot)));
 }
+
+/// Along wi to the near side of the sphere about to_center, or to its far side from within.
+template <class T>
+T distance_to_sphere(const Vec3<T>& to_center, T radius, const Vec3<T>& wi) {
+    const T along = dot(to_center, wi), radius2 = radius * radius;
+    const T half_chord = safe_sqrt(radius2 - length_squared(to_center - along * wi));
+    const T distance = select(length_squared(to_center) > radius2, along - half_chord, along + half_chord);
+    return max(distance, T(0));  // a receiver that touches the sphere
+}
+
+/// |half_u x half_v|.
+inline float parallelogram_m2(const AreaLight& light) { return light.area_m2 / (light.ellipse ? pi<float> : 4.0f); }
 
 /// The sphere of a sphere light or a spot; nothing for others.
 const SphereLight* sphere_of(const Light& light);

@@ -19,13 +19,14 @@ struct Transform {
         return std::abs(determinant) > 1e-6f * volume && std::isfinite(1.0f / determinant);
     }
 
-    /// Direction of a normal, not unit. The cofactor matrix serves where an object is scaled flat and has no inverse.
-    Vec3f normal(const Vec3f& n) const {
+    /// Takes normals to normals' directions, not unit: the cofactors, which serve where an object is scaled flat and
+    /// has no inverse.
+    Mat3<float> normal_matrix() const {
         const Mat3<float> cofactors(cross(linear[1], linear[2]), cross(linear[2], linear[0]),
                                     cross(linear[0], linear[1]));
-        const Vec3f v = cofactors * n;
-        return dot(linear[0], cofactors[0]) < 0.0f ? -v : v;
+        return dot(linear[0], cofactors[0]) < 0.0f ? -cofactors : cofactors;
     }
+    Vec3f normal(const Vec3f& n) const { return normal_matrix() * n; }
 };
 
 }  // namespace pivot

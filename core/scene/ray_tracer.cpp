@@ -101,6 +101,29 @@ void occluded_packets(Call call, RTCScene scene, std::span<const Ray> rays, std:
     }
 }
 
+/// Some of a packet's rays, as one of Embree's packets.
+template <class Packet, class Call>
+void test_visibility(Call call, RTCScene scene, const RayPacket& rays, std::size_t first,
+                     RayPacket::Values& visibility) {
+    constexpr std::size_t width = width_of<Packet>;
+    alignas(64) int valid[width];
+    Packet r;
+    const auto copy = [&](const RayPacket::Values& from, float* to) { std::copy_n(from.data() + first, width, to); };
+    copy(rays.origin_x, r.org_x), copy(rays.origin_y, r.org_y), copy(rays.origin_z, r.org_z);
+    copy(rays.direction_x, r.dir_x), copy(rays.direction_y, r.dir_y), copy(rays.direction_z, r.dir_z);
+    copy(rays.far_m, r.tfar);
+    bool any = false;
+    for (std::size_t i = 0; i < width; ++i) {
+        valid[i] = r.tfar[i] > 0.0f ? -1 : 0;
+        any = any || valid[i];
+        r.tnear[i] = r.time[i] = 0.0f;
+        r.mask[i] = visible_to_light;
+        r.flags[i] = 0;
+    }
+    if (any) trace(call, scene, r, valid);
+    for (std::size_t i = 0; i < width; ++i) visibility[first + i] = r.tfar[i] > 0.0f ? 1.0f : 0.0f;
+}
+
 }  // namespace
 
 struct RayTracer::Implementation {
@@ -247,6 +270,21 @@ void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occl
         return occluded_packets<RTCRay16>(rtcOccluded16, self.world.get(), rays, occluded_rays);
     if (self.packet_width == 8) return occluded_packets<RTCRay8>(rtcOccluded8, self.world.get(), rays, occluded_rays);
     for (std::size_t i = 0; i < rays.size(); ++i) occluded_rays[i] = occluded(rays[i]);
+}
+
+RayPacket::Values RayTracer::visibility(const RayPacket& rays) const {
+    const auto& self = *implementation_;
+    RayPacket::Values visibility;
+    if (self.packet_width == 16) {
+        test_visibility<RTCRay16>(rtcOccluded16, self.world.get(), rays, 0, visibility);
+    } else if (self.packet_width == 8) {
+        for (std::size_t first = 0; first < RayPacket::width; first += 8)
+            test_visibility<RTCRay8>(rtcOccluded8, self.world.get(), rays, first, visibility);
+    } else {
+        for (std::size_t first = 0; first < RayPacket::width; first += 4)
+            test_visibility<RTCRay4>(rtcOccluded4, self.world.get(), rays, first, visibility);
+    }
+    return visibility;
 }
 
 }  // namespace pivot

@@ -1,6 +1,7 @@
 // Closest hits and occlusion over instanced meshes. The only place that knows Embree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,6 +24,14 @@ struct RayHit {
     std::uint32_t instance;
     std::uint32_t triangle;
     Vec2f barycentric;  ///< weights of the triangle's second and third corner
+};
+
+/// Rays side by side, as SIMD makes them.
+struct RayPacket {
+    static constexpr std::size_t width = 16;
+    using Values = std::array<float, width>;
+    alignas(64) Values origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
+    Values far_m;  ///< not above 0: there is no such ray
 };
 
 /// Who sees an instance.
@@ -49,6 +58,8 @@ class RayTracer {
     /// Many at once, in SIMD packets of neighbours in the span: up to 3 times the rate. hits: one per ray.
     void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
+    /// 1 for each ray of the packet that meets nothing, else 0.
+    RayPacket::Values visibility(const RayPacket& rays) const;
 
    private:
     struct Implementation;

@@ -101,6 +101,7 @@ std::uint32_t Scene::add_instance(Instance instance) {
     if (instance.materials.empty()) throw std::invalid_argument("object '" + instance.name + "' has no material id");
     for (const std::uint32_t material : instance.materials) at(materials_, material, "material");
     const auto id = static_cast<std::uint32_t>(instances_.size());
+    instance.normal_matrix = instance.world_from_object.normal_matrix();
     ray_tracer_.set_instance(id, instance.mesh, instance.world_from_object, instance.visibility);
     instances_.push_back(std::move(instance));
     return id;
@@ -131,6 +132,7 @@ void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from
     Instance& instance = at_present(instances_, id, "instance");
     require_finite(world_from_object, instance.name);
     instance.world_from_object = world_from_object;
+    instance.normal_matrix = world_from_object.normal_matrix();
     ray_tracer_.set_instance(id, instance.mesh, world_from_object, instance.visibility);
 }
 
@@ -238,14 +240,14 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
     constexpr float error_per_magnitude = 0x1p-20f;  // a few roundings of 2^-24 each, with room
 
     const Vec3f n_object = cross(b - a, c - a);
-    Vec3f normal_geometric = normalize(transform.normal(n_object));
+    Vec3f normal_geometric = normalize(instance.normal_matrix * n_object);
     Vec3f normal_shading = normal_geometric;
     if (!mesh.corner_normals.empty()) {
         const Triangle& corner = mesh.triangle_corners[hit.triangle];
         const float w = 1.0f - hit.barycentric.x - hit.barycentric.y;
-        const Vec3f n =
-            transform.normal(w * mesh.corner_normals[corner.x] + hit.barycentric.x * mesh.corner_normals[corner.y] +
-                             hit.barycentric.y * mesh.corner_normals[corner.z]);
+        const Vec3f n = instance.normal_matrix *
+                        (w * mesh.corner_normals[corner.x] + hit.barycentric.x * mesh.corner_normals[corner.y] +
+                         hit.barycentric.y * mesh.corner_normals[corner.z]);
         if (length_squared(n) > 0.0f) normal_shading = normalize(n);
     }
     // A normal of the wrong side (flipped custom normals) is turned with the surface it belongs to.

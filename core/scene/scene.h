@@ -19,6 +19,7 @@ struct Instance {
     Transform world_from_object;
     std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
     std::uint32_t visibility;
+    Mat3<float> normal_matrix{1.0f};  ///< of world_from_object; the scene sets it
 };
 
 struct NamedLight {
@@ -69,6 +70,7 @@ class Scene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
         ray_tracer_.occluded(rays, occluded_rays);
     }
+    RayPacket::Values visibility(const RayPacket& rays) const { return ray_tracer_.visibility(rays); }
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const;
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
