@@ -27,33 +27,12 @@ struct LightPick {
     std::size_t place;
 };
 
-/// Rays that wait for each other, and what each adds where.
-class ShadowQueue {
-   public:
-    void push(std::size_t vertex, const LightCandidate& candidate) {
-        if (!(max_component(candidate.radiance) > 0.0f)) return;
-        rays_.push_back(candidate.ray);
-        added_.push_back({vertex, candidate.radiance});
-    }
-
-    void trace(const Scene& scene, std::span<Rgb> radiance) {
-        std::vector<std::uint8_t> occluded(rays_.size());
-        scene.occluded(rays_, occluded);
-        for (std::size_t i = 0; i < rays_.size(); ++i) {
-            if (!occluded[i]) radiance[added_[i].vertex] += added_[i].radiance;
-        }
-        rays_.clear();
-        added_.clear();
-    }
-
-   private:
-    struct Added {
-        std::size_t vertex;
-        Rgb radiance;
-    };
-    std::vector<Ray> rays_;
-    std::vector<Added> added_;
-};
+void push(LightSamples& samples, std::size_t vertex, const LightCandidate& candidate) {
+    if (!(max_component(candidate.radiance) > 0.0f)) return;
+    samples.rays.push_back(candidate.ray);
+    samples.vertices.push_back(vertex);
+    samples.radiance.push_back(candidate.radiance);
+}
 
 /// Vertices as the lanes of a batch; lanes past the end repeat the last.
 struct VertexLanes {
@@ -89,7 +68,7 @@ LightCandidate sample_light_at(const Scene& scene, LightSampling strategy, const
 
 /// A joint sample by each lane, of its own light; lanes that the closed forms leave out are sampled one by one.
 void sample_lanes(const Scene& scene, const VertexLanes& lanes, std::span<const LightPick> picks, std::size_t first,
-                  ShadowQueue& queue, std::span<std::uint8_t> shares) {
+                  LightSamples& samples, std::span<std::uint8_t> shares) {
     Lanes u_x, u_y, axis_x, axis_y, axis_z, versine;
     std::array<std::optional<Cap<float>>, batch_size> caps;
     for (std::size_t i = 0; i < batch_size; ++i) {
@@ -117,7 +96,7 @@ void sample_lanes(const Scene& scene, const VertexLanes& lanes, std::span<const 
         if (!caps[lane] || valid[lane] == 0.0f) {
             const LightCandidate candidate = sample_light_at(scene, LightSampling::joint, v, pick);
             shares[first + lane] |= candidate.shares_with_bsdf;
-            queue.push(first + lane, candidate);
+            push(samples, first + lane, candidate);
             continue;
         }
         const Vec3f wi = v.point.frame.to_world({wi_x[lane], wi_y[lane], wi_z[lane]});
@@ -125,8 +104,8 @@ void sample_lanes(const Scene& scene, const VertexLanes& lanes, std::span<const 
         Rgb reflected = v.surface.diffuse * diffuse[lane];
         if (glossy[lane] > 0.0f) reflected += v.surface.fresnel.at(cos_oh[lane]) * glossy[lane];
         const LightPoint place = light_point_in_cap(scene.lights()[pick.light], *caps[lane], v.point.position, wi);
-        queue.push(first + lane,
-                   {.radiance = reflected * place.radiance / pick.expected_samples, .ray = shadow_ray(v.point, place)});
+        push(samples, first + lane,
+             {.radiance = reflected * place.radiance / pick.expected_samples, .ray = shadow_ray(v.point, place)});
     }
 }
 
@@ -153,9 +132,9 @@ float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t lig
            choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
 }
 
-void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
-                      std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
-    ShadowQueue queue;
+LightSamples sample_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                                 std::span<std::uint8_t> shares) {
+    LightSamples samples;
     for (std::size_t first = 0; first < vertices.size(); first += batch_size) {
         const auto group = vertices.subspan(first, std::min(batch_size, vertices.size() - first));
         std::array<std::array<LightPick, max_light_samples>, batch_size> picks;
@@ -171,7 +150,7 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
                 for (std::size_t lane = 0; lane < group.size(); ++lane) {
                     round[lane] = k < counts[lane] ? picks[lane][k] : LightPick{0, 0.0f, k};
                 }
-                sample_lanes(scene, lanes, round, first, queue, shares);
+                sample_lanes(scene, lanes, round, first, samples, shares);
             }
             continue;
         }
@@ -179,11 +158,21 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
             for (std::size_t k = 0; k < counts[lane]; ++k) {
                 const LightCandidate candidate = sample_light_at(scene, strategy, group[lane], picks[lane][k]);
                 shares[first + lane] |= candidate.shares_with_bsdf;
-                queue.push(first + lane, candidate);
+                push(samples, first + lane, candidate);
             }
         }
     }
-    queue.trace(scene, radiance);
+    return samples;
+}
+
+void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                      std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
+    const LightSamples samples = sample_direct_light(scene, strategy, vertices, shares);
+    std::vector<std::uint8_t> occluded(samples.rays.size());
+    scene.occluded(samples.rays, occluded);
+    for (std::size_t i = 0; i < samples.rays.size(); ++i) {
+        if (!occluded[i]) radiance[samples.vertices[i]] += samples.radiance[i];
+    }
 }
 
 }  // namespace pivot

@@ -42,8 +42,19 @@ float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t lig
 /// MIS by the balance heuristic.
 inline float balance(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
 
-/// Light samples of each of the vertices, added to radiance[i]. shares[i]: whether vertex i's BSDF sample must be
+/// Light samples that wait for their rays: what each adds to its vertex' radiance if its ray is free.
+struct LightSamples {
+    std::vector<Ray> rays;
+    std::vector<std::size_t> vertices;
+    std::vector<Rgb> radiance;
+};
+
+/// Light samples of each of the vertices but those that add nothing. shares[i]: whether vertex i's BSDF sample must be
 /// traced for some light.
+LightSamples sample_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                                 std::span<std::uint8_t> shares);
+
+/// The same, traced and added to radiance[i].
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
                       std::span<Rgb> radiance, std::span<std::uint8_t> shares);
 
