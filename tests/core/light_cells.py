@@ -91,7 +91,7 @@ def spot(
 
 def sun(direction: tuple[float, float, float], half_angle_rad: float) -> CapLight:
     versine = 2 * np.sin(half_angle_rad / 2) ** 2
-    light = pivot_core.SunLight(direction, half_angle_rad, (2 * np.pi * versine,) * 3)
+    light = pivot_core.SunLight(direction, half_angle_rad, (np.pi * versine * (2 - versine),) * 3)
     return CapLight(light, np.array(direction), versine)
 
 
