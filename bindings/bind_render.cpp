@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/render.h"
 
@@ -10,20 +11,6 @@ namespace {
 
 namespace py = pybind11;
 using std::string;
-
-template <class Enum>
-using Names = std::initializer_list<std::pair<const char*, Enum>>;
-
-/// The value that a name stands for; ValueError lists the names there are.
-template <class Enum>
-Enum from_name(const char* argument, const string& name, Names<Enum> names) {
-    string known;
-    for (const auto& [key, value] : names) {
-        if (name == key) return value;
-        known += (known.empty() ? "" : ", ") + string(key);
-    }
-    throw py::value_error(string(argument) + " must be one of " + known + ", not '" + name + "'");
-}
 
 void require(bool ok, const char* message) {
     if (!ok) throw py::value_error(message);
@@ -42,12 +29,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
     return {
         .integrator = from_name<Integrator>(
             "integrator", integrator, {{"MONTE_CARLO", Integrator::monte_carlo}, {"ANALYTIC", Integrator::analytic}}),
-        .light_sampling = from_name<LightSampling>("light_sampling", light_sampling,
-                                                   {{"JOINT", LightSampling::joint},
-                                                    {"SPTD", LightSampling::sptd},
-                                                    {"MIS", LightSampling::mis},
-                                                    {"LIGHT", LightSampling::light},
-                                                    {"BSDF", LightSampling::bsdf}}),
+        .light_sampling = light_sampling_from(light_sampling),
         .samples = static_cast<std::uint32_t>(samples),
         .adaptive = adaptive,
         .seed = seed,

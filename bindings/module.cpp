@@ -45,6 +45,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
 
     register_scene(module);
     register_rays(module);
+    register_light_samples(module);
     register_occlusion(module);
     register_render(module);
 }

@@ -18,6 +18,7 @@ void register_shading(pybind11::module_& shading);
 
 void register_scene(pybind11::module_& module);
 void register_rays(pybind11::module_& module);
+void register_light_samples(pybind11::module_& module);
 void register_occlusion(pybind11::module_& module);
 void register_render(pybind11::module_& module);
 

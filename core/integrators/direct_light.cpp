@@ -18,8 +18,8 @@ struct LightPick {
     std::size_t place;
 };
 
-/// Light samples of a packet of vertices, that wait for their rays.
-struct LightSamples {
+/// Light samples of a packet of vertices, that wait for their rays; of no length where there is none.
+struct LightPacket {
     RayPacket rays;
     std::array<RayPacket::Values, 3> radiance;
 
@@ -57,7 +57,7 @@ struct LightSamples {
 
 /// A light sample of one vertex; whether BSDF samples must be traced for this light.
 bool sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex, const LightPick& pick,
-                     std::size_t lane, LightSamples& samples) {
+                     std::size_t lane, LightPacket& samples) {
     if (!(pick.expected_samples > 0.0f)) return false;
     const LightSampler light(scene.lights()[pick.light], vertex.point, vertex.surface, strategy);
     const auto place = light.sample(vertex.sampler.point(vertex.dimensions.light_place(pick.place)));
@@ -81,7 +81,7 @@ Kind kind_of(const Light& light, const SurfacePoint& point) {
 /// A joint sample by each of a batch of vertices, each of its own light, from lane `first` of the packet on; those
 /// that the closed forms leave out are sampled one by one.
 void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const Vertex> vertices,
-                  std::span<const LightPick> picks, std::size_t first, LightSamples& samples,
+                  std::span<const LightPick> picks, std::size_t first, LightPacket& samples,
                   std::span<std::uint8_t> shares) {
     const Vec2b u = lanes.sampler.point(vertices[0].dimensions.light_place(picks[0].place));
     std::array<Kind, batch_size> kinds{};
@@ -134,16 +134,10 @@ std::size_t pick_lights(const Scene& scene, const Vertex& vertex, std::span<Ligh
     return count;
 }
 
-}  // namespace
-
-float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t light) {
-    if (vertex.light_samples == scene.lights().size()) return 1.0f;
-    return static_cast<float>(vertex.light_samples) *
-           choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
-}
-
-void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
-                      std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
+/// Calls visit(first vertex, LightPacket) with each packet's light samples.
+template <class Visit>
+void sample_packets(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                    std::span<std::uint8_t> shares, const Visit& visit) {
     for (std::size_t begin = 0; begin < vertices.size(); begin += RayPacket::width) {
         const auto packet = vertices.subspan(begin, std::min(RayPacket::width, vertices.size() - begin));
         std::array<std::array<LightPick, RayPacket::width>, max_light_samples> picks;  // [sample][vertex]
@@ -160,8 +154,7 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
         };
         for (std::size_t first = 0; first < packet.size() && strategy == LightSampling::joint; first += batch_size)
             lanes[first / batch_size] = vertex_lanes(batch_at(first));
-        std::array<RayPacket::Values, 3> sum{};
-        LightSamples samples{};
+        LightPacket samples{};
         for (std::size_t k = 0; k < rounds; ++k) {
             const std::span<const LightPick> round = picks[k];
             samples.clear();
@@ -174,12 +167,43 @@ void add_direct_light(const Scene& scene, LightSampling strategy, std::span<cons
                 for (std::size_t i = first; i < first + batch_at(first).size(); ++i)
                     shared[i] |= sample_light_at(scene, strategy, packet[i], round[i], i, samples);
             }
-            const RayPacket::Values visibility = scene.visibility(samples.rays);
-            for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < RayPacket::width; ++i) sum[c][i] += visibility[i] * samples.radiance[c][i];
+            visit(begin, samples);
         }
-        for (std::size_t i = 0; i < packet.size(); ++i) radiance[begin + i] += Rgb(sum[0][i], sum[1][i], sum[2][i]);
     }
+}
+
+}  // namespace
+
+float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t light) {
+    if (vertex.light_samples == scene.lights().size()) return 1.0f;
+    return static_cast<float>(vertex.light_samples) *
+           choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
+}
+
+void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
+                      std::span<Rgb> radiance, std::span<std::uint8_t> shares) {
+    sample_packets(scene, strategy, vertices, shares, [&](std::size_t begin, const LightPacket& samples) {
+        const RayPacket::Values visibility = scene.visibility(samples.rays);
+        const std::size_t count = std::min(RayPacket::width, vertices.size() - begin);
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t c = 0; c < 3; ++c)
+                radiance[begin + i][static_cast<int>(c)] += visibility[i] * samples.radiance[c][i];
+        }
+    });
+}
+
+std::vector<LightSample> sample_direct_light(const Scene& scene, LightSampling strategy,
+                                             std::span<const Vertex> vertices, std::span<std::uint8_t> shares) {
+    std::vector<LightSample> result;
+    sample_packets(scene, strategy, vertices, shares, [&](std::size_t, const LightPacket& samples) {
+        const RayPacket& rays = samples.rays;
+        for (std::size_t i = 0; i < RayPacket::width; ++i) {
+            if (rays.far_m[i] > 0.0f)
+                result.push_back({{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]},
+                                  {samples.radiance[0][i], samples.radiance[1][i], samples.radiance[2][i]}});
+        }
+    });
+    return result;
 }
 
 }  // namespace pivot

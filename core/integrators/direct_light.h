@@ -20,4 +20,14 @@ inline float balance(float pdf, float other_pdf) { return pdf / (pdf + other_pdf
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,
                       std::span<Rgb> radiance, std::span<std::uint8_t> shares);
 
+/// What a light sample adds to its vertex' radiance if its ray is free.
+struct LightSample {
+    Vec3f wi;
+    Rgb radiance;
+};
+
+/// The light samples that add_direct_light traces, but those that add nothing.
+std::vector<LightSample> sample_direct_light(const Scene& scene, LightSampling strategy,
+                                             std::span<const Vertex> vertices, std::span<std::uint8_t> shares);
+
 }  // namespace pivot

@@ -44,7 +44,11 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     }
     if (surface.has_glossy()) {
         const Vec3f h = normalize(surface.wo_local + cap_local_.axis);
-        const float fresnel = mean_component(surface.fresnel.at(std::abs(dot(surface.wo_local, h))));
+        // As sample_jointly has it, whose density this is.
+        const LobeFresnel& f = surface.fresnel;
+        const float fresnel =
+            lerp(mean_component(f.schlick_f0 + f.dielectric_f0), mean_component(f.schlick_f90 + f.dielectric_f90),
+                 schlick_weight(std::abs(dot(surface.wo_local, h))));
         if (strategy == LightSampling::sptd) {
             glossy_technique_ = Technique::pivot;
             const GgxSptd lobe = ggx_sptd(surface.alpha, surface.wo_local);

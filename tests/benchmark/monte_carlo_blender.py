@@ -1,6 +1,6 @@
 """Inside Blender as a module: build a scene of monte_carlo_scenes.py and render it with Cycles or Pivot.
 
-monte_carlo_blender.py FOLDER: does the jobs of FOLDER/jobs.json (see monte_carlo_worker.py).
+monte_carlo_blender.py < JOBS: does the jobs (see monte_carlo_worker.py).
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ Metres and watts, z up. Lights stand where the camera does not see them and none
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,7 +63,7 @@ class Scene:
     eye: Triple = (0.0, -13.0, 9.0)
     target: Triple = (0.0, 0.0, 0.4)
     half_width: float = 0.42  # of the view plane at distance 1
-    peers: set[str] = field(default_factory=lambda: {"cycles", "mitsuba"})  # who can render the same
+    peers: tuple[str, ...] = ("cycles", "mitsuba")  # who can render the same
 
 
 def look_at(eye: Triple, target: Triple) -> NDArray[np.float64]:
@@ -142,6 +142,13 @@ def many_lights() -> list[LightSource]:
     return lights
 
 
+def lamps(count: int) -> list[LightSource]:
+    """So many spheres of one size all over the scene's ceiling, in all 4000 W."""
+    # Multiples of an irrational pair spread evenly, whatever their number (the R2 sequence).
+    xy = 22.0 * ((np.arange(1, count + 1)[:, None] * (0.7548776662466927, 0.5698402909980532)) % 1.0 - 0.5)
+    return [LightSource("POINT", (float(x), float(y), 9.0), 4000.0 / count, (0.15, 0.15)) for x, y in xy]
+
+
 def spots() -> list[LightSource]:
     places = ((-7, -6, 8), (0, -8, 9), (7, -6, 8), (-7, 6, 9), (0, 8, 8), (7, 6, 9))
     colors = ((1, 0.5, 0.4), (0.6, 1, 0.6), (0.5, 0.6, 1), (1, 0.9, 0.5), (0.9, 0.5, 1), (0.5, 1, 1))
@@ -162,12 +169,15 @@ def area_lights() -> list[LightSource]:
 GREY = Material("DIFFUSE", (0.5, 0.5, 0.5))
 SATIN = Material("GLOSSY", (0.5, 0.5, 0.5), 0.5)
 
+LAMPS = {f"{count}-lamps": Scene(balls(SATIN), lamps(count), peers=("cycles",)) for count in (10, 100, 1000)}
+
 SCENES = {
     "plates": plates(),
     "balls": Scene(balls(SATIN), sphere_lights()),
     "balls-diffuse-floor": Scene(balls(GREY), sphere_lights()),
-    "plastic": Scene(balls(Material("PLASTIC", (0.4, 0.3, 0.2), 0.3), "PLASTIC"), sphere_lights(), peers={"cycles"}),
+    "plastic": Scene(balls(Material("PLASTIC", (0.4, 0.3, 0.2), 0.3), "PLASTIC"), sphere_lights(), peers=("cycles",)),
     "64-lights": Scene(balls(SATIN), many_lights()),
-    "spots": Scene(balls(SATIN), spots(), peers={"cycles"}),
+    "spots": Scene(balls(SATIN), spots(), peers=("cycles",)),
     "area-lights": Scene(balls(SATIN), area_lights()),
+    **LAMPS,
 }

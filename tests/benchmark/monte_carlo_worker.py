@@ -1,7 +1,7 @@
 """What a renderer's own process does for monte_carlo.py: the jobs of a file, each a picture and its CPU seconds.
 
-WORKER FOLDER: FOLDER/jobs.json lists {"scene", "renderer", "settings", "samples", "seed", "file"}, those of one scene
-and settings together. Writes file.npz with image (height, width, 3), bottom row first, and cpu_s.
+WORKER < JOBS: JSON, a list of {"scene", "renderer", "settings", "samples", "seed", "file"}, those of one scene and
+settings together. Writes file.npz with image (height, width, 3), bottom row first, and cpu_s.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import json
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, Protocol
 
 import monte_carlo_scenes as scenes
@@ -24,7 +23,7 @@ class Renderer(Protocol):
 
 
 def main(renderers: dict[str, Callable[[scenes.Scene, dict[str, Any]], Renderer]]) -> None:
-    jobs = json.loads((Path(sys.argv[1]) / "jobs.json").read_text())
+    jobs = json.load(sys.stdin)
     for (scene, name, settings), group in itertools.groupby(
         jobs, lambda job: (job["scene"], job["renderer"], job["settings"])
     ):

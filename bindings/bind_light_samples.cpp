@@ -1,0 +1,108 @@
+// pivot_core.Scene's light samples: what the integrator draws at one vertex, and with which density, for tests.
+#include <pybind11/stl.h>
+
+#include "bindings/arrays.h"
+#include "bindings/names.h"
+#include "bindings/register.h"
+#include "core/integrators/direct_light.h"
+
+namespace pivot::bindings {
+namespace {
+
+constexpr std::size_t chunk_size = 1024;
+
+/// The scene made ready, and a vertex in it whose shading frame is the world's.
+Vertex vertex_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+                 std::size_t light_samples) {
+    scene.commit();
+    if (!(wo[2] > 0.0f)) throw py::value_error("wo must be above the surface: z > 0");
+    if (light_samples != 1 && light_samples != std::min(scene.lights().size(), max_light_samples)) {
+        throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_light_samples) +
+                              ", or as many as there are lights if they are fewer");
+    }
+    const Vec3f normal(0.0f, 0.0f, 1.0f);
+    const SurfacePoint point{.position = to_vec3(position),
+                             .normal_geometric = normal,
+                             .frame = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, normal},
+                             .error_m = 0.0f,
+                             .is_front = true,
+                             .instance = 0,
+                             .material = &material,
+                             .wo_local = normalize(to_vec3(wo))};
+    return {Sampler(), point, make_surface(material, point.wo_local), Dimensions(0), light_samples};
+}
+
+py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+                        const std::string& light_sampling, std::size_t light_samples, std::size_t count,
+                        std::uint32_t seed) {
+    const Vertex vertex = vertex_at(scene, material, position, wo, light_samples);
+    const LightSampling strategy = light_sampling_from(light_sampling);
+    std::vector<Vec3f> wi;
+    std::vector<Rgb> radiance;
+    for (std::size_t first = 0; first < count; first += chunk_size) {
+        std::vector<Vertex> vertices(std::min(chunk_size, count - first), vertex);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            vertices[i].sampler = Sampler(hash(static_cast<std::uint32_t>(first + i), seed), 0);
+        }
+        std::vector<std::uint8_t> shares(vertices.size(), 0);
+        for (const LightSample& sample : sample_direct_light(scene, strategy, vertices, shares)) {
+            wi.push_back(sample.wi);
+            radiance.push_back(sample.radiance);
+        }
+    }
+    const auto rows = [](const std::vector<Vec3f>& values) {
+        py::array_t<float> array({static_cast<py::ssize_t>(values.size()), py::ssize_t(3)});
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            for (int c = 0; c < 3; ++c) array.mutable_at(i, c) = values[i][c];
+        }
+        return array;
+    };
+    return py::make_tuple(rows(wi), rows(radiance));
+}
+
+py::tuple light_densities(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+                          const std::string& light_sampling, std::size_t light_samples, const FloatArray& wi) {
+    require_shape(wi, "wi", {-1, 3});
+    const Vertex vertex = vertex_at(scene, material, position, wo, light_samples);
+    const LightSampling strategy = light_sampling_from(light_sampling);
+    const py::ssize_t count = wi.shape(0), lights = static_cast<py::ssize_t>(scene.lights().size());
+    py::array_t<float> pdf_omega({count, lights}), pdf_omega_bsdf(count), reflected({count, lights, py::ssize_t(3)});
+    py::array_t<bool> shares(lights);
+    std::fill_n(pdf_omega.mutable_data(), pdf_omega.size(), 0.0f);
+    std::fill_n(reflected.mutable_data(), reflected.size(), 0.0f);
+    for (py::ssize_t light = 0; light < lights; ++light) {
+        const Light& source = scene.lights()[static_cast<std::size_t>(light)];
+        const LightSampler sampler(source, vertex.point, vertex.surface, strategy);
+        const float expected = expected_samples(scene, vertex, static_cast<std::size_t>(light));
+        shares.mutable_at(light) = sampler.shares_with_bsdf();
+        for (py::ssize_t i = 0; i < count; ++i) {
+            const Vec3f direction(wi.at(i, 0), wi.at(i, 1), wi.at(i, 2));
+            pdf_omega_bsdf.mutable_at(i) = pivot::pdf_omega(vertex.surface, direction);
+            const auto place = intersect_light(source, vertex.point.position, direction);
+            if (!place || !vertex.point.faces(direction)) continue;
+            const Rgb radiance = eval(vertex.surface, direction) * place->radiance;
+            if (!(max_component(radiance) > 0.0f)) continue;
+            pdf_omega.mutable_at(i, light) = expected * sampler.pdf_omega(*place);
+            for (int c = 0; c < 3; ++c) reflected.mutable_at(i, light, c) = radiance[c];
+        }
+    }
+    return py::make_tuple(pdf_omega, reflected, pdf_omega_bsdf, shares);
+}
+
+}  // namespace
+
+void register_light_samples(py::module_& module) {
+    auto scene = module.attr("Scene").cast<py::class_<Scene, std::shared_ptr<Scene>>>();
+    scene.def("sample_lights", &sample_lights, py::arg("material"), py::arg("position"), py::arg("wo"),
+              py::arg("light_sampling"), py::arg("light_samples"), py::arg("count"), py::arg("seed"),
+              "The light samples of `count` paths that meet a surface at `position`, its normal up: wi (n, 3) and what "
+              "each adds if nothing is in the way, (n, 3); those that add nothing are left out. light_samples: 1, "
+              "chosen among the lights; or as many as a first vertex takes.");
+    scene.def("light_densities", &light_densities, py::arg("material"), py::arg("position"), py::arg("wo"),
+              py::arg("light_sampling"), py::arg("light_samples"), py::arg("wi"),
+              "Of sample_lights at directions wi (n, 3): the density of a path's samples of each light per steradian "
+              "(n, lights), 0 where they would add nothing; what is reflected of the light's radiance (n, lights, 3); "
+              "the density of BSDF samples (n,); which lights share with these by the balance heuristic (lights,).");
+}
+
+}  // namespace pivot::bindings

@@ -1,0 +1,112 @@
+"""What monte_carlo.py prints of its rows, and its picture: a piece of every renderer's image of every scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy  # noqa: F401  Pivot's addon finds Blender's modules once this one is there
+
+# isort: split
+import monte_carlo_scenes as scenes
+import numpy as np
+from numpy.typing import NDArray
+from pivot import core
+from pivot.chart.canvas import Canvas
+from pivot.chart.pixels import write_png
+
+Row = dict[str, Any]
+PIECE_PX = (240, 180)  # of the middle of each image
+LABEL_PX, LEFT_PX, GAP_PX = 30, 150, 4
+INK = (0.13, 0.13, 0.15)
+
+
+def by_scene(rows: list[Row]) -> dict[str, dict[str, Row]]:
+    found: dict[str, dict[str, Row]] = {}
+    for row in rows:
+        found.setdefault(row["scene"], {})[row["renderer"]] = row
+    return found
+
+
+def best(found: dict[str, Row], name: str) -> dict[str, Row]:
+    """The most efficient of the renderers whose label starts so; empty if there is none."""
+    rows = [row for label, row in found.items() if label.startswith(name)]
+    return {name: max(rows, key=lambda row: row["efficiency"])} if rows else {}
+
+
+def print_table(rows: list[Row]) -> None:
+    """Each renderer's figures, and by how much Pivot is more efficient."""
+    print(f"\n{'scene':20} {'renderer':22} {'relMSE':>9} {'CPU s':>8} {'Ms/s':>6} {'pivot x':>8} {'mean':>8}")
+    for scene, found in by_scene(rows).items():
+        for label, row in found.items():
+            ratio = found["pivot"]["efficiency"] / row["efficiency"] if "pivot" in found else float("nan")
+            figures = f"{row['relMSE']:9.2e} {row['CPU s']:8.2f} {row['Msamples per CPU s']:6.2f}"
+            print(f"{scene:20} {label:22} {figures} {ratio:8.2f} {row['mean']:8.5f}")
+
+
+def print_ratios(rows: list[Row]) -> None:
+    """By scene and as geometric means: Pivot's efficiency over the others', and joint sampling's over MIS."""
+
+    def over(own: str, other: str, figure: str) -> Callable[[dict[str, Row]], float | None]:
+        def ratio(found: dict[str, Row]) -> float | None:
+            others = best(found, other)
+            if own not in found or not others:
+                return None
+            ours, theirs = found[own][figure], others[other][figure]
+            return theirs / ours if figure == "relMSE" else ours / theirs
+
+        return ratio
+
+    columns = {
+        "over best Cycles": over("pivot", "cycles", "efficiency"),
+        "adaptive": over("pivot adaptive", "cycles", "efficiency"),
+        "over Mitsuba": over("pivot", "mitsuba", "efficiency"),
+        "adaptive ": over("pivot adaptive", "mitsuba", "efficiency"),
+        "joint over MIS, samples": over("pivot", "pivot MIS", "relMSE"),
+        "CPU": over("pivot", "pivot MIS", "efficiency"),
+    }
+    print("\nTimes the efficiency (of joint over MIS at equal samples: times less relMSE)")
+    print(f"{'':20}", *(f"{name:>{len(name)}}" for name in columns), sep="  ")
+    ratios: dict[str, list[float]] = {name: [] for name in columns}
+    for scene, found in by_scene(rows).items():
+        cells = []
+        for name, column in columns.items():
+            ratio = column(found)
+            cells.append(f"{'' if ratio is None else f'{ratio:.2f}':>{len(name)}}")
+            ratios[name] += [] if ratio is None else [ratio]
+        print(f"{scene:20}", *cells, sep="  ")
+    for label, of in (("geometric mean", lambda v: float(np.exp(np.mean(np.log(v))))), ("least", min)):
+        cells = [f"{f'{of(values):.2f}' if values else '':>{len(name)}}" for name, values in ratios.items()]
+        print(f"{label:20}", *cells, sep="  ")
+
+
+def print_growth(rows: list[Row]) -> None:
+    """CPU that one quality costs as lights of the same total power become more: relMSE x CPU, and over the fewest's."""
+    print(f"\n{'lights':>8} {'renderer':22} {'relMSE':>9} {'CPU s':>8} {'relMSE x CPU':>13} {'of the fewest':>14}")
+    fewest: dict[str, float] = {}
+    for row in rows:
+        product = row["relMSE"] * row["CPU s"]
+        growth = product / fewest.setdefault(row["renderer"], product)
+        lights = len(scenes.SCENES[row["scene"]].lights)
+        figures = f"{row['relMSE']:9.2e} {row['CPU s']:8.2f} {product:13.2e} {growth:14.2f}"
+        print(f"{lights:8} {row['renderer']:22} {figures}")
+
+
+def write_picture(file: Path, scene_names: list[str], images: dict[str, dict[str, NDArray[np.float64]]]) -> None:
+    """images: by renderer, then scene. A row a scene, a column a renderer, at the pixels' own size."""
+    width, height = PIECE_PX
+    x0, y0 = (scenes.WIDTH - width) // 2, (scenes.HEIGHT - height) // 2
+    size = (LEFT_PX + len(images) * (width + GAP_PX), LABEL_PX + len(scene_names) * (height + GAP_PX))
+    canvas = Canvas(core.load(), *size)
+    for column, (label, by_name) in enumerate(images.items()):
+        x = LEFT_PX + column * (width + GAP_PX)
+        canvas.text(x + width / 2, size[1] - 20, label, 18, INK, "CENTER")
+        for line, name in enumerate(scene_names, 1):
+            y = size[1] - LABEL_PX - line * (height + GAP_PX)
+            if name in by_name:
+                canvas.image(x, y, by_name[name][y0 : y0 + height, x0 : x0 + width])
+    for line, name in enumerate(scene_names, 1):
+        y = size[1] - LABEL_PX - line * (height + GAP_PX)
+        canvas.text(LEFT_PX - 8, y + height / 2, name, 16, INK, "RIGHT")
+    write_png(file, canvas.render())
