@@ -22,7 +22,7 @@ GgxCap<T> checked_cap(const Vec3<T>& o, const Vec3<T>& c, T h, T ax, T ay) {
 template <class T>
 GgxCap<T> valid_cap(const Vec3<T>& o, const Vec3<T>& c, T h, T ax, T ay) {
     const GgxCap<T> g = checked_cap(o, c, h, ax, ay);
-    if (!g.valid) fail("versine", "makes a cap whose half vectors leave the upper hemisphere: cut it");
+    if (!is_valid(g)) fail("versine", "makes a cap whose half vectors leave the upper hemisphere: cut it");
     return g;
 }
 
@@ -38,7 +38,7 @@ auto points_of() {
             std::array<T, N> weight;
             for (size_t k = 0; k < N; ++k) {
                 omega_i[k] = rule[k].omega_i;
-                weight[k] = rule[k].weight * (g.integral / sum);
+                weight[k] = rule[k].weight * (integral(g) / sum);
             }
             return std::tuple(omega_i, weight);
         },
@@ -64,7 +64,7 @@ wo, axis: (..., 3) unit, in the shading frame (z = normal), wo above; versine: (
 cone or leave the upper hemisphere. float32 is within 1e-4 relative for alphas from 1e-3 and half-angles from 1e-5.)",
         []<class T>(Vec3<T> o, Vec3<T> c, T h, T ax, T ay) {
             const GgxCap<T> g = checked_cap(o, c, h, ax, ay);
-            return std::tuple(g.integral, g.valid);
+            return std::tuple(integral(g), is_valid(g));
         },
         wo, axis, versine, alpha_x, alpha_y);
     define(

@@ -126,11 +126,10 @@ T intersection_solid_angle(const Cap<T>& cap1, const Cap<T>& cap2) {
 /// The smooth approximation [Dupuy17 (37, 38)]: exact where one cap holds the other or they are apart.
 template <class T>
 T intersection_solid_angle_approximate(T versine1, T versine2, const Separation<T>& between) {
-    const T h = min(versine1, versine2);
-    const T psi1 = angle_of_versine(h, T(2) - h);
-    const T psi2 = angle_of_versine(max(versine1, versine2), T(2) - max(versine1, versine2));
+    const T h = min(versine1, versine2), larger = max(versine1, versine2);
+    const T psi1 = angle_of_versine(h, T(2) - h), psi2 = angle_of_versine(larger, T(2) - larger);
     const T psi_d = angle_of_versine(between.versine, between.opposite_versine);
-    const T x = clamp01((psi1 + psi2 - psi_d) / max(T(2) * psi1, tiny<T>));
+    const T x = clamp01((psi1 + psi2 - psi_d) * T(0.5) * inverse(max(psi1, tiny<T>)));
     return T(2) * pi<T> * h * x * x * (T(3) - T(2) * x);
 }
 

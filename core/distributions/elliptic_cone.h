@@ -36,8 +36,6 @@ struct GgxCap {
     T det;                 // sqrt(mu mu1 mu2)
     T lift;                // 1 / (|M^-1 b| sqrt(mu))
     T form_factor;         // F, in [0, 1]
-    T integral;            // of D(h) / (4 cos_o) over the cap, without masking, Fresnel and horizon; 0 if not valid
-    Mask<T> valid;  // the half vectors make a cone and stay above the surface: else cut the cap, or use quadrature
 };
 
 /// The mapped cone's ellipse across e3, after the boost.
@@ -95,19 +93,26 @@ struct FrameProducts {
         dd = dot(m2 * g.d, g.d);
         pp = dot(m2 * g.p, g.p);
     }
+
+    /// Under diag(x, x, 1).
+    FrameProducts(const GgxCap<T>& g, T x2) {
+        const auto square = [&](const Vec3<T>& v) { return x2 * (sqr(v.x) + sqr(v.y)) + sqr(v.z); };
+        const T cross = (T(1) - x2) * g.b.z;
+        bb = square(g.b);
+        dd = square(g.d);
+        pp = square(g.p);
+        bd = cross * g.d.z;
+        bp = cross * g.p.z;
+    }
 };
 
-}  // namespace detail
-
-/// wo with wo.z > 0; alphas > 0.
+/// The cone of half vectors.
 template <class T>
-GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
+GgxCap<T> half_vectors(const Vec3<T>& wo, const Cap<T>& cap) {
     const T least = tiny<T> / std::numeric_limits<T>::epsilon();
     GgxCap<T> g;
     g.cap = cap;
     g.wo = wo;
-    g.alpha_x = alpha_x;
-    g.alpha_y = alpha_y;
 
     const Vec3<T> sum = wo + cap.axis, difference = wo - cap.axis;
     const T sum2 = length_squared(sum), difference2 = length_squared(difference);
@@ -117,26 +122,29 @@ GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
     g.b = sum * inverse_sum;
     const Vec3<T> aside = cross(sum, difference);
     const T aside2 = length_squared(aside);
-    g.p = select(aside2 > least, aside * inverse_sqrt(max(aside2, least)), frame_from_z(g.b).y);
+    g.p = aside * inverse_sqrt(max(aside2, least));
+    if (const auto is_along = aside2 <= least; any(is_along)) g.p = select(is_along, frame_from_z(g.b).y, g.p);
     g.d = cross(g.p, g.b);
     const T room = T(0.5) * sum2 - cap.versine;
-    const T a1_2 = cap.versine * inverse(T(2) - cap.versine), a2_2 = cap.versine * inverse(max(room, least));
-    g.a1 = sqrt(a1_2);
-    g.a2 = sqrt(a2_2);
-    g.valid = room > T(0) && g.b.z > T(0) && sqr(g.b.z) > a1_2 * sqr(g.d.z) + a2_2 * sqr(g.p.z);
+    g.a1 = sqrt(cap.versine * inverse(T(2) - cap.versine));
+    g.a2 = sqrt(cap.versine * inverse(max(room, least)));
+    return g;
+}
 
+/// The rest, of its frame's products under M^-1 and M; inverse_area is 1 / (alpha_x alpha_y).
+template <class T>
+void put_eigenvalues(GgxCap<T>& g, const FrameProducts<T>& under_inverse, const FrameProducts<T>& under_m,
+                     T inverse_area) {
     // B, A1, A2 are b, a1 d, a2 p under M^-1, over |M^-1 b|; cross products of two of them are those of the third under
     // M
-    const T inverse_x = inverse(alpha_x), inverse_y = inverse(alpha_y);
-    const detail::FrameProducts<T> under_inverse(g, sqr(inverse_x), sqr(inverse_y)),
-        under_m(g, sqr(alpha_x), sqr(alpha_y));
     g.inverse_scale = inverse_sqrt(under_inverse.bb);
-    const T unit2 = sqr(g.inverse_scale), area = inverse_x * inverse_y * unit2, area2 = sqr(area);
+    const T unit2 = sqr(g.inverse_scale), area = inverse_area * unit2, area2 = sqr(area);
+    const T a1_2 = sqr(g.a1), a2_2 = sqr(g.a2);
     const T squares = unit2 * (a1_2 * under_inverse.dd + a2_2 * under_inverse.pp);  // A1^2 + A2^2
     const T cross12 = area2 * a1_2 * a2_2 * under_m.bb;                             // (A1 x A2)^2
     const T trace = T(1) - squares, minors = cross12 - area2 * (a1_2 * under_m.pp + a2_2 * under_m.dd);
     g.det = g.a1 * g.a2 * area * g.inverse_scale;
-    g.mu = detail::positive_root(trace, minors, sqr(g.det));
+    g.mu = positive_root(trace, minors, sqr(g.det));
 
     const T mu_unit2 = g.mu * unit2;
     g.velocity = Vec2<T>(g.a1 * (area2 * a2_2 * under_m.bd - mu_unit2 * under_inverse.bd),
@@ -146,9 +154,45 @@ GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
 
     g.form_factor = g.det * inverse_sqrt(max(sqr(g.mu) * (g.mu + (g.mu - trace)) + sqr(g.det), tiny<T>));
     g.lift = g.inverse_scale * inverse_sqrt(g.mu);
-    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
-    g.integral = select(g.valid, g.form_factor * g.gamma * center * g.lift * inverse(wo.z), T(0));
+}
+
+}  // namespace detail
+
+/// wo with wo.z > 0; alphas > 0.
+template <class T>
+GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
+    GgxCap<T> g = detail::half_vectors(wo, cap);
+    g.alpha_x = alpha_x;
+    g.alpha_y = alpha_y;
+    const T inverse_x = inverse(alpha_x), inverse_y = inverse(alpha_y);
+    detail::put_eigenvalues(g, detail::FrameProducts<T>(g, sqr(inverse_x), sqr(inverse_y)),
+                            detail::FrameProducts<T>(g, sqr(alpha_x), sqr(alpha_y)), inverse_x * inverse_y);
     return g;
+}
+
+/// The same alpha both ways, which is cheaper.
+template <class T>
+GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha) {
+    GgxCap<T> g = detail::half_vectors(wo, cap);
+    g.alpha_x = g.alpha_y = alpha;
+    const T inverse_area = sqr(inverse(alpha));
+    detail::put_eigenvalues(g, detail::FrameProducts<T>(g, inverse_area), detail::FrameProducts<T>(g, sqr(alpha)),
+                            inverse_area);
+    return g;
+}
+
+/// Whether the half vectors make a cone and stay above the surface: else cut the cap, or use quadrature.
+template <class T>
+Mask<T> is_valid(const GgxCap<T>& g) {
+    const T room = T(2) * sqr(g.cos_half) - g.cap.versine;
+    return room > T(0) && g.b.z > T(0) && sqr(g.b.z) > sqr(g.a1 * g.d.z) + sqr(g.a2 * g.p.z);
+}
+
+/// Of D(h) / (4 cos_o) over the cap, without masking, Fresnel and horizon; 0 if not valid.
+template <class T>
+T integral(const GgxCap<T>& g) {
+    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
+    return select(is_valid(g), g.form_factor * g.gamma * center * g.lift * inverse(g.wo.z), T(0));
 }
 
 /// Of the semi-axes, boosted: they are across e3.
@@ -232,7 +276,7 @@ GgxCapPoint<T> sample(const GgxCap<T>& g, const Vec2<T>& u) {
 }
 
 /// A fixed rule of N = 1, 4, 8 or 16 points. Weigh a smooth factor f by
-/// integral * sum(weight f) / sum(weight): exact where f is constant.
+/// integral(g) * sum(weight f) / sum(weight): exact where f is constant.
 template <size_t N, class T>
 std::array<GgxCapPoint<T>, N> points(const GgxCap<T>& g) {
     if constexpr (N == 1) return {center_point(g)};

@@ -59,9 +59,10 @@ Vec3<T> transform_point(const Pivot<T>& pivot, const Vec3<T>& r) {
 template <class T>
 Vec2<T> transform_versines(const Pivot<T>& pivot, const Cap<T>& cap) {
     const T delta = pivot.delta, m = T(1) - delta, h = cap.versine, q = length_squared(pivot.direction - cap.axis);
-    const T x = (m * q - T(2) * h + delta * delta) / power(pivot) + h;
-    const T sin2 = sin2_half_angle(cap), length2 = x * x + sin2, cosine = abs(x) / sqrt(length2);
-    const T small = sin2 / (length2 * (T(1) + cosine)), large = T(1) + cosine;
+    const T x = (m * q - T(2) * h + delta * delta) * inverse(power(pivot)) + h;
+    const T sin2 = sin2_half_angle(cap), length2 = x * x + sin2;
+    const T inverse_length = inverse_sqrt(max(length2, tiny<T>)), large = T(1) + abs(x) * inverse_length;
+    const T small = sin2 * sqr(inverse_length) * inverse(large);
     return {select(x > T(0), small, large), select(x > T(0), large, small)};
 }
 
@@ -73,7 +74,7 @@ Cap<T> transform(const Pivot<T>& pivot, const Cap<T>& cap) {
     const T delta = pivot.delta, m = T(1) - delta, h = cap.versine;
     const Vec3<T> to_u = u - cap.axis;
     const T q = length_squared(to_u);
-    const T along_u = (m * m * q - T(2) * m * h - delta * delta) / power(pivot) + q * T(0.5);
+    const T along_u = (m * m * q - T(2) * m * h - delta * delta) * inverse(power(pivot)) + q * T(0.5);
     return {normalize(to_u + (along_u - dot(to_u, u)) * u), transform_versines(pivot, cap).x};
 }
 

@@ -2,9 +2,9 @@
 
 namespace pivot {
 
-bool is_near(const AreaLight& light, const Vec3f& point) {
+bool needs_bsdf_samples(const AreaLight& light, const SurfacePoint& point) {
     const float reach_m = 1.2f * (length(light.half_u) + length(light.half_v));
-    return length_squared(light.center - point) < sqr(reach_m);
+    return length_squared(light.center - point.position) < sqr(reach_m) || point.wo_local.z < 0.05f;
 }
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point) {

@@ -29,8 +29,9 @@ struct AreaView {
     Mask<T> ellipse;
 };
 
-/// Whether a point is so near that samples by area would vary without bound: BSDF samples must share.
-bool is_near(const AreaLight& light, const Vec3f& point);
+/// Whether samples by area would vary without bound, so that BSDF samples must share: near the light, and at grazing
+/// views, where slopes are far from linear in the place.
+bool needs_bsdf_samples(const AreaLight& light, const SurfacePoint& point);
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
 JointSurface<float> joint_surface(const Surface& surface);
@@ -115,7 +116,7 @@ struct AreaGrid {
         return AreaWarp<T>(center, y_scale * sqrt(T(1) + z * z + off * off), height);
     }
 
-    /// Fills the cells by value(x, y), the integrand by (x, y).
+    /// Fills the cells by value(x, y, dx, dy), the integrand by (x, y) in a cell of that size.
     template <class Value>
     void fill(const AreaView<T>& light, const Value& value) {
         constexpr float columns = area_columns, rows = area_rows;
@@ -124,11 +125,12 @@ struct AreaGrid {
         for (std::size_t i = 0; i < area_columns; ++i) {
             const T x = x_warp.place(T((static_cast<float>(i) + 0.5f) / columns));
             const AreaWarp<T> warp = y_warp(light, x);
-            const T x_size = T(1 / (columns * rows)) / x_warp.pdf(x);
+            const T dx = T(1 / columns) / x_warp.pdf(x);
             sums[i] = T(0);
             for (std::size_t j = 0; j < area_rows; ++j) {
                 const T y = warp.place(T((static_cast<float>(j) + 0.5f) / rows));
-                row[j][i] = value(x, y) * x_size / warp.pdf(y);
+                const T dy = T(1 / rows) / warp.pdf(y);
+                row[j][i] = value(x, y, dx, dy) * dx * dy;
                 sums[i] += row[j][i];
             }
             const auto lit = sums[i] > tiny<T>;
@@ -173,8 +175,19 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
     const Vec3<T> offset = mirrored * (-dot(light.center, light.normal) / towards) - light.center;
     const Vec3<T> across_u = cross(light.half_v, light.normal), across_v = cross(light.normal, light.half_u);
     const T inverse = T(1) / light.parallelogram_m2;
-    const T x = min(max(dot(offset, across_u) * inverse, T(-1)), T(1));
-    const T height = half_height(light, x), y = min(max(dot(offset, across_v) * inverse, -height), height);
+    T x = min(max(dot(offset, across_u) * inverse, T(-1)), T(1));
+    const T height = half_height(light, x);
+    T y = min(max(dot(offset, across_v) * inverse, -height), height);
+    // Below the horizon there is no lobe to fit: go towards the light's highest place.
+    const T rise_u = light.half_u.z, rise_v = light.half_v.z;
+    const T shrink = select(light.ellipse, T(1) / sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
+    const T top_x = select(light.ellipse, rise_u * shrink, select(rise_u < T(0), T(-1), T(1)));
+    const T top_y = select(light.ellipse, rise_v * shrink, select(rise_v < T(0), T(-1), T(1)));
+    const T top_z = light.center.z + top_x * rise_u + top_y * rise_v;
+    const T z = light.center.z + x * rise_u + y * rise_v, fall = max(top_z - z, tiny<T>);
+    const T kept = select(z < T(0.05) * top_z, min(max(T(0.95) * top_z / fall, T(0)), T(1)), T(1));
+    x = top_x + kept * (x - top_x);
+    y = top_y + kept * (y - top_y);
 
     // Slopes there, in alphas, and how they change with x and y.
     const Vec3<T> d = light.center + x * light.half_u + y * light.half_v;
@@ -215,20 +228,20 @@ class AreaSampler {
             diffuse_.x_warp = detail::AreaWarp<T>(T(0), T(1e3f), T(1));
             diffuse_.y_center = diffuse_.shear = T(0);
             diffuse_.y_scale = T(1e3f);
-            diffuse_.fill(light, [&](T x, T y) {
+            diffuse_.fill(light, [&](T x, T y, T dx, T dy) {
                 const Seen seen = see(x, y);
-                return max(seen.wi.z, T(0)) * seen.omega_per_xy;
+                return cosine_of_cell(seen, dx, dy) * seen.omega_per_xy;
             });
             diffuse = surface.diffuse * diffuse_.integral * T(1.0f / pi<float>);
         }
         if (uses_glossy_) {
             glossy_ = detail::fit_grid(light, surface.wo_local, surface.alpha);
             const T alpha2 = surface.alpha * surface.alpha;
-            glossy_.fill(light, [&](T x, T y) {
+            glossy_.fill(light, [&](T x, T y, T dx, T dy) {
                 const Seen seen = see(x, y);
                 const Vec3<T> h = surface.wo_local + seen.wi;
                 const T h2 = dot(h, h), slope = h.x * h.x + h.y * h.y + alpha2 * h.z * h.z;
-                const T cos_i = max(seen.wi.z, T(0));
+                const T cos_i = cosine_of_cell(seen, dx, dy);
                 const T masking = cos_i / (cos_i + sqrt(alpha2 + (T(1) - alpha2) * cos_i * cos_i));
                 return sqr(h2 / slope) * masking * seen.omega_per_xy;
             });
@@ -273,6 +286,12 @@ class AreaSampler {
     }
 
    private:
+    /// At its centre, or of what of a cell is above the horizon that its centre is below.
+    T cosine_of_cell(const Seen& seen, T dx, T dy) const {
+        const T rise = T(0.5) * (dx * abs(light_.half_u.z) + dy * abs(light_.half_v.z)) / max(seen.distance_m, tiny<T>);
+        return max(max(seen.wi.z, T(0.25) * (seen.wi.z + rise)), T(0));
+    }
+
     JointSurface<T> surface_;
     AreaView<T> light_;
     detail::AreaGrid<T> diffuse_, glossy_;

@@ -38,7 +38,8 @@ Vec3b cap_point(const Cap<Batch>& cap, const Vec2f& xy) {
     return {Batch(xy.x) * radius, Batch(xy.y) * radius, Batch(1.0f) - versine};
 }
 
-/// One SPTD lobe of the table, clipped at the horizon [Dupuy17, Sec. 5].
+/// One SPTD lobe of the table, clipped at the horizon by [Dupuy17 (37)]: a fifth of the exact intersection's cost, and
+/// 2 % of the light off where it crosses, on average.
 Batch integrate_sptd(const SurfaceBatch& batch, const Cap<Batch>& cap) {
     std::array<GgxSptd, batch_size> lobes;
     for (std::size_t i = 0; i < batch_size; ++i)
@@ -47,7 +48,8 @@ Batch integrate_sptd(const SurfaceBatch& batch, const Cap<Batch>& cap) {
                              gather([&](std::size_t i) { return lobes[i].delta; })};
     const Cap<Batch> horizon{{Batch(0.0f), Batch(0.0f), Batch(1.0f)}, Batch(1.0f)};
     const Batch amplitude = gather([&](std::size_t i) { return lobes[i].amplitude(); });
-    return amplitude * integrate_uniform(pivot, cap, horizon);
+    const Batch clipped = intersection_solid_angle_approximate(transform(pivot, cap), transform(pivot, horizon));
+    return amplitude * clipped * Batch(0.25f / pi<float>);
 }
 
 /// One LTC of the table, clipped at the horizon.

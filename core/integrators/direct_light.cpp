@@ -71,11 +71,11 @@ bool sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& v
 }
 
 /// Kinds of light as batches tell them apart.
-enum class Kind { none, cap, area, near_area };
+enum class Kind { none, cap, area, shared_area };
 
 Kind kind_of(const Light& light, const SurfacePoint& point) {
     const auto* area = std::get_if<AreaLight>(&light);
-    return !area ? Kind::cap : is_near(*area, point.position) ? Kind::near_area : Kind::area;
+    return !area ? Kind::cap : needs_bsdf_samples(*area, point) ? Kind::shared_area : Kind::area;
 }
 
 /// A joint sample by each of a batch of vertices, each of its own light, from lane `first` of the packet on; those

@@ -66,7 +66,7 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
         s.valid = above || !has_diffuse;
         return s;
     }
-    const GgxCap<T> g = ggx_cap(surface.wo_local, cap, surface.alpha, surface.alpha);
+    const GgxCap<T> g = ggx_cap(surface.wo_local, cap, surface.alpha);
     const auto masked = [&](T d) {
         return select(has_glossy && s.wi_local.z > T(0),
                       d * ggx_g2(surface.wo_local, s.wi_local, surface.alpha, surface.alpha), T(0));
@@ -76,13 +76,13 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
         s.wi_local = lit.omega_i;
         s.diffuse = T(0);
         s.glossy = masked(lit.weight);
-        s.valid = g.valid;
+        s.valid = is_valid(g);
         return s;
     }
 
     const T diffuse_share = surface.diffuse * cap.axis.z * sin2_psi;
     const T fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(g.cos_half));
-    const T glossy_share = fresnel * g.integral * ggx_g1(surface.wo_local, surface.alpha, surface.alpha);
+    const T glossy_share = fresnel * integral(g) * ggx_g1(surface.wo_local, surface.alpha, surface.alpha);
     const T share = glossy_share / max(diffuse_share + glossy_share, tiny<T>);
     const T both = max(min(share, T(1.0f - min_lobe_probability)), T(min_lobe_probability));
     const T p_glossy = select(has_glossy, select(has_diffuse, both, T(1)), T(0));
@@ -93,7 +93,7 @@ JointSample<T> sample_jointly(const JointSurface<T>& surface, const Cap<T>& cap,
     const GgxCapPoint<T> lit = disk_point(g, ellipse_axes(g), disk, T(1) - u_x);
 
     s.wi_local = select(is_glossy, lit.omega_i, detail::project_to_cap(cap, disk, T(1) - u_x));
-    s.valid = (above || !has_diffuse) && (g.valid || !has_glossy);
+    s.valid = (above || !has_diffuse) && (is_valid(g) || !has_glossy);
     const T cos_i = max(s.wi_local.z, T(0));
     const T pdf_diffuse = cos_i / (pi<T> * max(sin2_psi * cap.axis.z, tiny<T>));
     const T pdf_glossy = select(is_glossy, lit.pdf_omega, pdf_omega_inside(g, s.wi_local));

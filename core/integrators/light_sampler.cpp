@@ -24,7 +24,7 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
             area_.emplace(joint_surface(surface), view);
         else
             diffuse_technique_ = Technique::none;
-        shares_with_bsdf_ = is_near(area, point.position);
+        shares_with_bsdf_ = needs_bsdf_samples(area, point);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -55,10 +55,10 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
             pivot_ = {lobe.pivot_local, lobe.delta};
             glossy_share = fresnel * lobe.amplitude() * integrate_uniform(pivot_, cap_local_);
         } else {
-            ggx_cap_ = ggx_cap(surface.wo_local, cap_local_, surface.alpha, surface.alpha);
-            if (ggx_cap_.valid) {
+            ggx_cap_ = ggx_cap(surface.wo_local, cap_local_, surface.alpha);
+            if (is_valid(ggx_cap_)) {
                 glossy_technique_ = Technique::exact;
-                glossy_share = fresnel * ggx_cap_.integral * ggx_g1(surface.wo_local, surface.alpha, surface.alpha);
+                glossy_share = fresnel * integral(ggx_cap_) * ggx_g1(surface.wo_local, surface.alpha, surface.alpha);
             } else {
                 glossy_share = fresnel * std::min(1.0f, cap_local_.versine);
             }

@@ -12,12 +12,13 @@
 //   light    uniform in the cap   uniform in the cap                   no
 //   bsdf     -                    -                                    BSDF samples alone
 //
-// A joint sample adds at most 10 times the light's radiance, whatever the light. Of a cap above the horizon it adds at
-// most 2.5 times the light's mean where the surface has one lobe, 20 times where it has two (7.1, 2.0 and 8.9 measured
-// over 4e7 samples of 40000 surfaces and lights; tests/core/test_sample_weights.py).
+// A joint sample adds at most 10 times the light's radiance, 50 times an area light's. Of a cap above the horizon it
+// adds at most 2.5 times the light's mean where the surface has one lobe, 20 times where it has two (7.1, 26, 2.0
+// and 8.9 measured, over 4e7 samples of 40000 surfaces and lights, 5e8 of 60000 area lights;
+// tests/core/test_sample_weights.py).
 //
 // An area light is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF
-// samples where it is near; else uniformly by area, sharing in every strategy but light.
+// samples where these vary less (see area_sampling.h); else uniformly by area, sharing in every strategy but light.
 #pragma once
 
 #include "core/distributions/elliptic_cone.h"

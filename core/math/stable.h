@@ -14,7 +14,8 @@ T versine_of_angle(T angle_rad) {
 /// The angle in [0, pi] of 1 - cos(angle), given with its complement 1 + cos(angle).
 template <class T>
 T angle_of_versine(T versine, T complement) {
-    return T(2) * atan2(safe_sqrt(versine), safe_sqrt(complement));
+    const T smaller = T(2) * asin(safe_sqrt(T(0.5) * min(versine, complement)));
+    return select(versine > complement, pi<T> - smaller, smaller);
 }
 
 /// x - sin x for x >= 0.

@@ -36,7 +36,7 @@ T length(const Vec3<T>& v) {
 
 template <class T>
 Vec3<T> normalize(const Vec3<T>& v) {
-    return v * (T(1) / sqrt(dot(v, v)));
+    return v * inverse_sqrt(dot(v, v));
 }
 
 /// Lane by lane; select(bool, ...) chooses a whole vector.

@@ -189,16 +189,18 @@ GgxCapLight<T> ggx_cap_light(const GgxLobe<T>& lobe, const Cap<T>& cap) {
     const T z = cap.axis.z, sine = sqrt(sin2_half_angle(cap));
     const auto is_wide = cap.versine > T(1);
     const auto crosses = is_wide || z < sine;
-    const auto surrounds =
-        crosses && T(0.5) * length_squared(lobe.wo_local + cap.axis) < T(1.05) * cap.versine + T(1e-6);
-    const Cap<T> chart_cap{select(surrounds, Vec3<T>(T(0), T(0), T(1)), cap.axis),
-                           select(surrounds, T(1), cap.versine)};
+    auto surrounds = crosses;
+    Cap<T> chart_cap = cap;
+    if (any(crosses)) {
+        surrounds = crosses && T(0.5) * length_squared(lobe.wo_local + cap.axis) < T(1.05) * cap.versine + T(1e-6);
+        chart_cap = {select(surrounds, Vec3<T>(T(0), T(0), T(1)), cap.axis), select(surrounds, T(1), cap.versine)};
+    }
     return {lobe,
             cap,
             crosses,
             !is_wide && z <= -sine,
             surrounds,
-            ggx_cap(lobe.wo_local, chart_cap, lobe.alpha, lobe.alpha),
+            ggx_cap(lobe.wo_local, chart_cap, lobe.alpha),
             IsotropicG2<T>(lobe.wo_local, lobe.alpha)};
 }
 
@@ -219,11 +221,10 @@ LobePoint<T> lobe_point(const GgxCapLight<T>& light, const GgxAxes<T>& axes, con
 
 namespace detail {
 
-/// What one point leaves to do better: its error, and how near the light is to the horizon.
+/// What one point is off by.
 template <class T>
 struct PointError {
     T one, at_most;  // relative; at_most: of leaving the light out
-    T nearness2;     // (sin psi / sin elevation)^2, at most 1
 };
 
 /// By the cheapest rule that is good enough, for the lanes where one point is not. Apart from that, which is most
@@ -254,7 +255,9 @@ template <class T, class Falloff>
         needs_slices = needs_slices && !barely;
     }
     if (any(needs_points)) {
-        const T left = error.one * error.nearness2;
+        // (sin psi / sin elevation)^2: how near the light is to the horizon
+        const T nearness2 = min(sin2_half_angle(cap) * inverse(max(sqr(cap.axis.z), T(1e-12f))), T(1));
+        const T left = error.one * nearness2;
         const auto by_4 = needs_points && !falloff_varies && left * T(error_left_by_points_4) <= budget;
         const auto by_8 = needs_points && !falloff_varies && !by_4 && left * T(error_left_by_points_8) <= budget;
         const auto by_16 = needs_points && !by_4 && !by_8 && left * T(error_left_by_points_16) <= budget;
@@ -291,13 +294,12 @@ LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget, const Falloff& 
     LobeIntegral<T> result;
     add(result.sums, lobe, cos_oh, center.weight * center_g2 * falloff(center.omega_i));
 
-    const T z = cap.axis.z, sine2 = sin2_half_angle(cap), fresnel_gap = T(1) - cos_oh;
+    const T sine2 = sin2_half_angle(cap), fresnel_gap = T(1) - cos_oh;
     const T fresnel_bend = T(0.25 * 0.25 * 10) * sqr(g.sin_half) * sine2 * lobe.fresnel_contrast * fresnel_gap *
                            sqr(fresnel_gap) * inverse(T(1) + lobe.fresnel_contrast * schlick_weight(cos_oh));
     // Masked as little as can be, all of the cap's half vectors are at_most.
     const detail::PointError<T> error{error_of_point(lobe.alpha, cap.versine, center_z, center_g2) + fresnel_bend,
-                                      center.weight * g2.at_most() * T(1 / least_value),
-                                      min(sine2 * inverse(max(sqr(z), T(1e-12f))), T(1))};
+                                      center.weight * g2.at_most() * T(1 / least_value)};
     result.predicted_error = min(error.one, error.at_most);
     result.method = detail::number_of<T>(Method::points_1);
     if (any(!below && error.at_most >= budget && (crosses || result.predicted_error > budget || falloff_varies))) {

@@ -140,7 +140,7 @@ int main() {
         return intersection_solid_angle_approximate(transform(n.pivot, n.cap), transform(n.pivot, horizon));
     });
     measure("the exact core with one point and G2 and both Fresnel curves", [&](const Neighbours& n) {
-        const GgxCap<Batch> g = ggx_cap(n.lobe.wo_local, n.cap, n.lobe.alpha, n.lobe.alpha);
+        const GgxCap<Batch> g = ggx_cap(n.lobe.wo_local, n.cap, n.lobe.alpha);
         const GgxCapPoint<Batch> point = center_point(g);
         const Batch cos_oh = point.cos_oh;
         return point.weight * IsotropicG2<Batch>(n.lobe.wo_local, n.lobe.alpha)(point.omega_i.z) *
