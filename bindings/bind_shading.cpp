@@ -39,6 +39,13 @@ GgxLobe<Batch> gather_lobe(const Gather& alpha, const Gather& wo) {
     return {wo.direction(), max(alpha(0), Batch(min_alpha)), Batch(1.0f), false};
 }
 
+/// The leading axes of all inputs together.
+Shape common_shape(std::initializer_list<std::pair<const char*, const Input<float>*>> inputs) {
+    Shape common;
+    for (const auto& [name, input] : inputs) broadcast(common, input->leading, name);
+    return common;
+}
+
 /// integral(gather): of the lanes that gather(input) reads. Returns (value, error, method).
 template <class Integral>
 py::tuple evaluate_batches(const Shape& common, const Integral& integral) {
@@ -67,12 +74,8 @@ py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const 
     const Direction axis_spec{"cap_axis"};
     const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), axes(axis_spec, cap_axis);
     const Input<float> half_angles(half_angle_spec, half_angle);
-    Shape common;
-    broadcast(common, alphas.leading, "alpha");
-    broadcast(common, wos.leading, "wo");
-    broadcast(common, axes.leading, "cap_axis");
-    broadcast(common, half_angles.leading, "half_angle");
-
+    const Shape common =
+        common_shape({{"alpha", &alphas}, {"wo", &wos}, {"cap_axis", &axes}, {"half_angle", &half_angles}});
     const auto cap_integral = [&](const auto& gather) {
         const GgxLobe<Batch> lobe = gather_lobe(gather(alphas), gather(wos));
         const Cap<Batch> cap{gather(axes).direction(), versine_of_angle(gather(half_angles)(0))};
@@ -88,12 +91,8 @@ py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py
     const Vector center_spec{"center"}, u_spec{"half_u"}, v_spec{"half_v"};
     const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), centers(center_spec, center), us(u_spec, half_u),
         vs(v_spec, half_v);
-    Shape common;
-    broadcast(common, alphas.leading, "alpha");
-    broadcast(common, wos.leading, "wo");
-    broadcast(common, centers.leading, "center");
-    broadcast(common, us.leading, "half_u");
-    broadcast(common, vs.leading, "half_v");
+    const Shape common =
+        common_shape({{"alpha", &alphas}, {"wo", &wos}, {"center", &centers}, {"half_u", &us}, {"half_v", &vs}});
     const auto area_integral = [&](const auto& gather) {
         const GgxLobe<Batch> lobe = gather_lobe(gather(alphas), gather(wos));
         const AreaOutline<Batch> outline{gather(centers).direction(), gather(us).direction(), gather(vs).direction(),

@@ -202,9 +202,9 @@ void for_each_batch(const std::array<OutlineArc<Batch>, N>& arcs, const BatchMas
             visit(whole);
             continue;
         }
-        const Lanes lanes = store(select(exists, Batch(1.0f), Batch(0.0f)));
+        const auto lanes = store(exists);
         for (std::size_t i = 0; i < batch_size; ++i)
-            if (lanes[i] > 0.0f) pieces[all++] = {static_cast<std::int32_t>(k), static_cast<std::int32_t>(i)};
+            if (lanes[i]) pieces[all++] = {static_cast<std::int32_t>(k), static_cast<std::int32_t>(i)};
     }
     for (std::size_t first = 0; first < all; first += batch_size) {
         ArcBatch batch;

@@ -1,5 +1,5 @@
 // GGX under a cap-shaped light by the cheapest rule on the exact core that meets an error budget. Shading frame, z the
-// normal. One body for a float and for a batch: a batch takes every rule that one of its lanes needs.
+// normal. A batch takes every rule that one of its lanes needs.
 #pragma once
 
 #include <optional>
@@ -127,11 +127,11 @@ LobeSums<Batch> sum_slices(const GgxSlices<Batch>& slices, const BatchMask& want
         std::int32_t lane;
         float x, low, high, width;
     };
-    const Lanes is_wanted = store(select(wanted, Batch(1.0f), Batch(0.0f)));
+    const auto is_wanted = store(wanted);
     std::array<std::int32_t, batch_size> lanes;
     std::size_t lane_count = 0, piece_count = 0;
     for (std::size_t i = 0; i < batch_size; ++i)
-        if (is_wanted[i] > 0.0f) lanes[lane_count++] = static_cast<std::int32_t>(i);
+        if (is_wanted[i]) lanes[lane_count++] = static_cast<std::int32_t>(i);
     constexpr std::size_t panels = std::tuple_size_v<decltype(slices.ends)> - 1;
     std::array<Piece, batch_size * panels * N * 2> pieces;
     for_each_piece<N>(slices, [&](const GgxPiece<Batch>& piece) {

@@ -2,7 +2,7 @@
 //
 // An error is |value - exact| / max(exact, 1e-3 of the light's radiance), F = 1. The bounds were fitted to random
 // caps: alpha 0.001..1, views to 88 degrees, half-angles 0.001..80 degrees, centres around the highlight and across the
-// horizon; tests/benchmark/analytic_error.py measures them.
+// horizon; tests/benchmark/analytic.py measures them.
 #pragma once
 
 #include <array>

@@ -69,6 +69,13 @@ inline Lanes store(const Batch& batch) {
     return lanes;
 }
 
+inline std::array<bool, batch_size> store(const BatchMask& mask) {
+    const Lanes lanes = store(xsimd::select(mask, Batch(1.0f), Batch(0.0f)));
+    std::array<bool, batch_size> result;
+    for (std::size_t i = 0; i < batch_size; ++i) result[i] = lanes[i] > 0.0f;
+    return result;
+}
+
 /// The same vector in every lane.
 inline Vec3b broadcast(const Vec3f& v) { return {Batch(v.x), Batch(v.y), Batch(v.z)}; }
 
