@@ -125,21 +125,23 @@ void register_material(py::module_& module) {
 }
 
 void register_lights(py::module_& module) {
-    py::class_<SphereLight>(module, "SphereLight", "A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi).")
-        .def(py::init([](const Triple& position, float radius_m, const Triple& intensity) {
-                 return make_sphere_light(to_vec3(position), radius_m, to_vec3(intensity));
+    py::class_<SphereLight>(module, "SphereLight",
+                            "A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk "
+                            "turned to each point it lights instead, Blender's soft falloff.")
+        .def(py::init([](const Triple& position, float radius_m, const Triple& intensity, bool facing_disk) {
+                 return make_sphere_light(to_vec3(position), radius_m, to_vec3(intensity), facing_disk);
              }),
-             py::arg("position"), py::arg("radius_m"), py::arg("intensity"));
+             py::arg("position"), py::arg("radius_m"), py::arg("intensity"), py::arg("facing_disk") = false);
     py::class_<SpotLight>(module, "SpotLight",
                           "A sphere that shines along direction, with a smooth step from the cone's edge inwards over "
-                          "the share blend of its versine.")
+                          "the share blend of its versine; with cosine, times the cosine from the axis.")
         .def(py::init([](const Triple& position, float radius_m, const Triple& intensity, const Triple& direction,
-                         float cos_half_angle, float blend) {
-                 return make_spot_light(make_sphere_light(to_vec3(position), radius_m, to_vec3(intensity)),
-                                        to_vec3(direction), cos_half_angle, blend);
+                         float cos_half_angle, float blend, bool facing_disk, bool cosine) {
+                 return make_spot_light(make_sphere_light(to_vec3(position), radius_m, to_vec3(intensity), facing_disk),
+                                        to_vec3(direction), cos_half_angle, blend, cosine);
              }),
              py::arg("position"), py::arg("radius_m"), py::arg("intensity"), py::arg("direction"),
-             py::arg("cos_half_angle"), py::arg("blend"));
+             py::arg("cos_half_angle"), py::arg("blend"), py::arg("facing_disk") = false, py::arg("cosine") = false);
     py::class_<SunLight>(
         module, "SunLight",
         "Light from a cap of directions around direction (towards the sun); irradiance of a surface that "

@@ -76,11 +76,17 @@ def _intensity(data: Any, strength: NDArray[np.float64]) -> NDArray[np.float64]:
     return intensity
 
 
+def _is_facing_disk(data: Any) -> bool:
+    """Whether a point or spot light is a disk turned to each point it lights: soft falloff, and Blender 3. [C]"""
+    return getattr(data, "use_soft_falloff", bpy.app.version < (4, 0))
+
+
 def _point(context: Context, data: Any, strength: NDArray[np.float64], object_to_world: NDArray[np.float64]) -> Any:
     return context.core.SphereLight(
         position=object_to_world[:3, 3].tolist(),
         radius_m=data.shadow_soft_size,
         intensity=_intensity(data, strength).tolist(),
+        facing_disk=_is_facing_disk(data),
     )
 
 
@@ -95,6 +101,8 @@ def _spot(context: Context, data: Any, strength: NDArray[np.float64], object_to_
         direction=direction.tolist(),
         cos_half_angle=math.cos(data.spot_size / 2),
         blend=data.spot_blend,
+        facing_disk=_is_facing_disk(data),
+        cosine=bpy.app.version < (4, 0),
     )
 
 

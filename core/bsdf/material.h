@@ -17,12 +17,12 @@ struct Material {
     float dielectric_ior = 1.5f;
     Rgb dielectric_tint{1.0f};  ///< scales the reflectance at normal incidence
     bool multiscatter = false;  ///< give back what single scattering loses between microfacets
-    Rgb emission{0.0f};         ///< radiance, both sides
+    Rgb emission{0.0f};         ///< radiance, both sides; negative: subtracted
 
     bool has_glossy() const {
         return dielectric_weight > 0.0f || max_component(max(conductor_f0, conductor_f90)) > 0.0f;
     }
-    bool is_emissive() const { return max_component(emission) > 0.0f; }
+    bool is_emissive() const { return max_component(abs(emission)) > 0.0f; }
 };
 
 }  // namespace pivot

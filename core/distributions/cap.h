@@ -66,6 +66,15 @@ Cap<T> cap_of_sphere(const Vec3<T>& center, T radius) {
             select(outside, sqr(sin_psi) / (T(1) + cos_psi), T(2))};
 }
 
+/// What a disk covers that faces the origin from center; nothing is ever inside it.
+template <class T>
+Cap<T> cap_of_facing_disk(const Vec3<T>& center, T radius) {
+    const T distance = length(center), slant = sqrt(sqr(distance) + sqr(radius));
+    const auto apart = distance > tiny<T>;
+    return {select(apart, center / select(apart, distance, T(1)), Vec3<T>(T(0), T(0), T(1))),
+            sqr(radius) / (slant * (slant + distance))};
+}
+
 /// The integral of max(0, omega . normal) over the cap, cut by the horizon: pi times the form factor, and the area of
 /// the cap projected along the normal.
 ///

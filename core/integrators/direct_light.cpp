@@ -32,7 +32,7 @@ struct LightPacket {
         const Vec3f origin = point.ray_origin(place.wi);
         rays.origin_x[lane] = origin.x, rays.origin_y[lane] = origin.y, rays.origin_z[lane] = origin.z;
         rays.direction_x[lane] = place.wi.x, rays.direction_y[lane] = place.wi.y, rays.direction_z[lane] = place.wi.z;
-        rays.far_m[lane] = max_component(added) > 0.0f ? place.distance_m * shadow_reach : 0.0f;
+        rays.far_m[lane] = max_component(abs(added)) > 0.0f ? place.distance_m * shadow_reach : 0.0f;
         for (int k = 0; k < 3; ++k) radiance[static_cast<std::size_t>(k)][lane] = added[k];
     }
 
@@ -46,7 +46,7 @@ struct LightPacket {
             put(v.x, x), put(v.y, y), put(v.z, z);
         };
         const Vec3b added(samples.radiance.x * scale, samples.radiance.y * scale, samples.radiance.z * scale);
-        const Batch far_m = select(max(max(added.x, added.y), added.z) > Batch(0.0f),
+        const Batch far_m = select(max(max(abs(added.x), abs(added.y)), abs(added.z)) > Batch(0.0f),
                                    samples.distance_m * Batch(shadow_reach), Batch(0.0f));
         put3(lanes.position + lanes.error_m * lanes.normal_geometric, rays.origin_x, rays.origin_y, rays.origin_z);
         put3(samples.wi, rays.direction_x, rays.direction_y, rays.direction_z);

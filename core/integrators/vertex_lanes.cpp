@@ -7,23 +7,34 @@ namespace {
 struct CapLight {
     Vec3f center;  ///< of a sun: the direction towards it
     float radius_m;
-    float sun_versine;  ///< above 0: this is a sun
+    float is_facing_disk;  ///< 0 or 1
+    float sun_versine;     ///< above 0: this is a sun
     Rgb radiance;
     Vec3f spot_direction;  ///< 0: not a spot
     float cos_edge;        ///< where a spot's falloff starts
     float falloff_width;
+    float is_cosine;  ///< 0 or 1: whether a spot's cosine counts too
 };
 
 CapLight cap_light(const Light& light) {
     constexpr float below_all = -2.0f;  // cosines: other lights fall off nowhere
     if (const auto* sun = std::get_if<SunLight>(&light))
-        return {sun->cap.axis, 0.0f, sun->cap.versine, sun->radiance, Vec3f(0.0f), below_all, 1.0f};
+        return {sun->cap.axis, 0.0f, 0.0f, sun->cap.versine, sun->radiance, Vec3f(0.0f), below_all, 1.0f, 0.0f};
     const SphereLight& sphere = *sphere_of(light);
-    CapLight cap{sphere.center, sphere.radius_m, 0.0f, sphere.radiance, Vec3f(0.0f), below_all, 1.0f};
+    CapLight cap{sphere.center,
+                 sphere.radius_m,
+                 sphere.is_facing_disk ? 1.0f : 0.0f,
+                 0.0f,
+                 sphere.radiance,
+                 Vec3f(0.0f),
+                 below_all,
+                 1.0f,
+                 0.0f};
     if (const auto* spot = std::get_if<SpotLight>(&light)) {
         cap.spot_direction = spot->direction;
         cap.cos_edge = spot->cos_half_angle;
         cap.falloff_width = spot_falloff_width(*spot);
+        cap.is_cosine = spot->is_cosine ? 1.0f : 0.0f;
     }
     return cap;
 }
@@ -87,7 +98,12 @@ LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const L
     const Vec3b center = vector(&CapLight::center), to_center = center - lanes.position;
     const Batch radius = number(&CapLight::radius_m), sun_versine = number(&CapLight::sun_versine);
     const BatchMask is_sun = sun_versine > Batch(0.0f);
-    const Cap<Batch> seen = cap_of_sphere(to_center, radius);
+    const BatchMask is_disk = number(&CapLight::is_facing_disk) > Batch(0.0f);
+    Cap<Batch> seen = cap_of_sphere(to_center, radius);
+    if (any(is_disk)) {
+        const Cap<Batch> disk = cap_of_facing_disk(to_center, radius);
+        seen = {select(is_disk, disk.axis, seen.axis), select(is_disk, disk.versine, seen.versine)};
+    }
     const Cap<Batch> cap{select(is_sun, center, seen.axis), select(is_sun, sun_versine, seen.versine)};
 
     const JointSample<Batch> s =
@@ -96,9 +112,11 @@ LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const L
     const Vec3b wi = lanes.frame.to_world(s.wi_local);
     const BatchMask faces = dot(wi, lanes.normal_geometric) > Batch(0.0f) && s.wi_local.z > Batch(0.0f);
     const Batch cos_spot = -dot(wi, vector(&CapLight::spot_direction));
-    const Batch falloff = falloff_of((cos_spot - number(&CapLight::cos_edge)) / number(&CapLight::falloff_width));
+    const Batch falloff = falloff_of((cos_spot - number(&CapLight::cos_edge)) / number(&CapLight::falloff_width)) *
+                          lerp(Batch(1.0f), max(cos_spot, Batch(0.0f)), number(&CapLight::is_cosine));
     const Vec3b reflected = times(lanes.diffuse, s.diffuse) + times(lanes.fresnel(cos_oh), s.glossy);
-    const Batch distance = distance_to_sphere(to_center, radius, wi);
+    Batch distance = distance_to_sphere(to_center, radius, wi);
+    if (any(is_disk)) distance = select(is_disk, distance_to_facing_disk(to_center, wi), distance);
     return {.radiance = times(reflected * vector(&CapLight::radiance), select(faces, falloff, Batch(0.0f))),
             .wi = wi,
             .distance_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance),

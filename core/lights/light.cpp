@@ -20,10 +20,6 @@ bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y)
 
 bool is_unit(const Vec3f& v) { return std::abs(length_squared(v) - 1.0f) < 1e-3f; }
 
-void require_color(const Rgb& c, const char* message) {
-    require(is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f, message);
-}
-
 std::optional<LightPoint> area_light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
     const float cos_light = -dot(wi, light.normal);
     if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
@@ -49,25 +45,26 @@ std::optional<LightPoint> intersect_area(const AreaLight& light, const Vec3f& po
 
 }  // namespace
 
-SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity) {
+SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity, bool is_facing_disk) {
     require(is_finite(center), "position must be finite");
     require(std::isfinite(radius_m) && radius_m >= 0.0f, "radius_m must be finite and not negative");
-    require_color(intensity, "intensity must be finite and not negative");
+    require(is_finite(intensity), "intensity must be finite");
     const float radius = std::max(radius_m, min_radius_m);
-    return {center, radius, intensity / (pi<float> * sqr(radius))};
+    return {center, radius, intensity / (pi<float> * sqr(radius)), is_facing_disk};
 }
 
-SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend) {
+SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend,
+                          bool is_cosine) {
     require(is_unit(direction), "direction must be a unit vector");
     require(cos_half_angle >= -1.0f && cos_half_angle < 1.0f, "cos_half_angle must be in [-1, 1)");
     require(blend >= 0.0f && blend <= 1.0f, "blend must be in [0, 1]");
-    return {sphere, direction, cos_half_angle, blend};
+    return {sphere, direction, cos_half_angle, blend, is_cosine};
 }
 
 SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb& irradiance) {
     require(is_unit(direction), "direction must be a unit vector");
     require(half_angle_rad >= 0.0f && half_angle_rad <= pi<float> / 2.0f, "half_angle_rad must be in [0, pi/2]");
-    require_color(irradiance, "irradiance must be finite and not negative");
+    require(is_finite(irradiance), "irradiance must be finite");
     const float half_angle = std::max(half_angle_rad, min_sun_half_angle_rad);
     const Cap<float> cap{normalize(direction), 2.0f * sqr(sin(0.5f * half_angle))};
     return {cap, irradiance / (pi<float> * sqr(sin(half_angle)))};
@@ -77,7 +74,7 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
                           bool ellipse) {
     require(is_finite(center), "center must be finite");
     require(is_finite(half_u) && is_finite(half_v), "half_u and half_v must be finite");
-    require_color(radiance, "radiance must be finite and not negative");
+    require(is_finite(radiance), "radiance must be finite");
     const Vec3f normal = cross(half_u, half_v);
     const float quarter_area = length(normal);
     require(quarter_area > 0.0f, "half_u and half_v must span an area");
@@ -105,7 +102,7 @@ Vec3f place_on(const AreaLight& light, const Vec2f& u) {
 
 std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
     if (const auto* sun = std::get_if<SunLight>(&light)) return sun->cap;
-    if (const SphereLight* sphere = sphere_of(light)) return cap_of_sphere(sphere->center - point, sphere->radius_m);
+    if (const SphereLight* sphere = sphere_of(light)) return cap_from(*sphere, point);
     return std::nullopt;
 }
 
@@ -124,7 +121,10 @@ std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point
 
 float distance_to_light(const Light& light, const Vec3f& point, const Vec3f& wi) {
     const SphereLight* sphere = sphere_of(light);
-    return sphere ? distance_to_sphere(sphere->center - point, sphere->radius_m, wi) : infinity;
+    if (!sphere) return infinity;
+    const Vec3f to_center = sphere->center - point;
+    return sphere->is_facing_disk ? distance_to_facing_disk(to_center, wi)
+                                  : distance_to_sphere(to_center, sphere->radius_m, wi);
 }
 
 LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const Vec3f& point, const Vec3f& wi) {
@@ -133,7 +133,7 @@ LightPoint light_point_in_cap(const Light& light, const Cap<float>& cap, const V
     const SphereLight& sphere = *sphere_of(light);
     const auto* spot = std::get_if<SpotLight>(&light);
     const Rgb radiance = spot ? sphere.radiance * spot_falloff(*spot, -dot(wi, spot->direction)) : sphere.radiance;
-    return {wi, distance_to_sphere(sphere.center - point, sphere.radius_m, wi), radiance, pdf_omega};
+    return {wi, distance_to_light(light, point, wi), radiance, pdf_omega};
 }
 
 }  // namespace pivot

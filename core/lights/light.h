@@ -1,5 +1,5 @@
 // Lights of finite size. A point sees a sphere, a spot and a sun as a spherical cap, an area light as its outline.
-// World space; wi points from the lit point towards the light. All emit linear RGB radiance.
+// World space; wi points from the lit point towards the light.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,13 @@
 
 namespace pivot {
 
-/// A sphere that shines alike in all directions. Radius 0 is a very small sphere of the same intensity.
+/// A sphere that shines alike in all directions, or, with Blender's soft falloff, the disk of that radius turned to
+/// whichever point it lights. Radius 0 is a very small sphere of the same intensity.
 struct SphereLight {
     Vec3f center;
     float radius_m;
     Rgb radiance;
+    bool is_facing_disk;
 };
 
 /// A sphere whose radiance falls off from its axis to the edge of a cone; Blender's spot.
@@ -21,7 +23,8 @@ struct SpotLight {
     SphereLight sphere;
     Vec3f direction;  ///< where it shines, unit
     float cos_half_angle;
-    float blend;  ///< 0: hard edge, 1: falls off from the axis on
+    float blend;     ///< 0: hard edge, 1: falls off from the axis on
+    bool is_cosine;  ///< the radiance also falls off by the cosine from the axis, as in Blender before 4.0
 };
 
 /// Light from a cap of directions, the same everywhere.
@@ -40,13 +43,15 @@ struct AreaLight {
     Rgb radiance;
 };
 
+/// All emit linear RGB radiance; a negative one is subtracted.
 using Light = std::variant<SphereLight, SpotLight, SunLight, AreaLight>;
 
 // Each throws std::invalid_argument naming the argument that cannot be.
 
 /// intensity: W/(sr) of the whole sphere towards any side, Blender's power / (4 pi).
-SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity);
-SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend);
+SphereLight make_sphere_light(const Vec3f& center, float radius_m, const Rgb& intensity, bool is_facing_disk);
+SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, float cos_half_angle, float blend,
+                          bool is_cosine);
 /// direction: towards the sun, unit. irradiance: of a surface that faces it.
 SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb& irradiance);
 /// half_u, half_v: from the centre to the middle of two sides. Shines towards cross(half_u, half_v).
@@ -71,7 +76,14 @@ T falloff_of(T part) {
 /// Falloff of a spot, 0..1, towards a point; cosine: of the angle between there and where the spot shines.
 template <class T>
 T spot_falloff(const SpotLight& spot, T cosine) {
-    return falloff_of((cosine - T(spot.cos_half_angle)) / T(spot_falloff_width(spot)));
+    const T falloff = falloff_of((cosine - T(spot.cos_half_angle)) / T(spot_falloff_width(spot)));
+    return spot.is_cosine ? falloff * max(cosine, T(0)) : falloff;
+}
+
+/// Along wi to the disk about to_center that faces the origin.
+template <class T>
+T distance_to_facing_disk(const Vec3<T>& to_center, const Vec3<T>& wi) {
+    return length_squared(to_center) / max(dot(to_center, wi), tiny<T>);
 }
 
 /// Along wi to the near side of the sphere about to_center, or to its far side from within.
@@ -105,6 +117,14 @@ struct LightPoint {
 
 /// Uniform over the cap, or over the area for an area light. Nothing where the light does not reach the point.
 std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u);
+
+/// The cap that a sphere light covers from a point, over float or batches.
+template <class T>
+Cap<T> cap_from(const SphereLight& light, const Vec3<T>& point) {
+    const Vec3<T> to_center = Vec3<T>(T(light.center.x), T(light.center.y), T(light.center.z)) - point;
+    return light.is_facing_disk ? cap_of_facing_disk(to_center, T(light.radius_m))
+                                : cap_of_sphere(to_center, T(light.radius_m));
+}
 
 /// What a ray from a point meets of the light.
 std::optional<LightPoint> intersect_light(const Light& light, const Vec3f& point, const Vec3f& wi);

@@ -21,20 +21,20 @@ float radius_of(const Light& light) {
 /// Radiance times the area that faces a point: what it gives far away.
 float intensity_of(const Light& light) {
     const SphereLight* sphere = sphere_of(light);
-    if (sphere) return mean_component(sphere->radiance) * pi<float> * sqr(sphere->radius_m);
+    if (sphere) return mean_component(abs(sphere->radiance)) * pi<float> * sqr(sphere->radius_m);
     const auto& area = std::get<AreaLight>(light);
-    return mean_component(area.radiance) * area.area_m2;
+    return mean_component(abs(area.radiance)) * area.area_m2;
 }
 
 void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
     if (const auto* sun = std::get_if<SunLight>(&light)) {
-        proxies.set_sphere(child, sun->cap.axis, 0.0f, mean_component(sun->radiance));
+        proxies.set_sphere(child, sun->cap.axis, 0.0f, mean_component(abs(sun->radiance)));
         proxies.sun_versine[child] = sun->cap.versine;
     } else if (const auto* area = std::get_if<AreaLight>(&light)) {
-        proxies.set_flat(child, area->center, area->area_m2, area->normal, mean_component(area->radiance));
+        proxies.set_flat(child, area->center, area->area_m2, area->normal, mean_component(abs(area->radiance)));
     } else {
         const SphereLight& sphere = *sphere_of(light);
-        proxies.set_sphere(child, sphere.center, sphere.radius_m, mean_component(sphere.radiance));
+        proxies.set_sphere(child, sphere.center, sphere.radius_m, mean_component(abs(sphere.radiance)));
         if (const auto* spot = std::get_if<SpotLight>(&light)) {
             proxies.normal_x[child] = spot->direction.x;
             proxies.normal_y[child] = spot->direction.y;
@@ -52,7 +52,7 @@ void set_group(LightProxies& proxies, std::size_t child, const std::vector<Light
     float intensity = 0.0f, irradiance = 0.0f;
     for (const std::uint32_t i : indices) {
         if (const auto* sun = std::get_if<SunLight>(&lights[i])) {
-            irradiance += mean_component(sun->radiance) * sin2_half_angle(sun->cap);
+            irradiance += mean_component(abs(sun->radiance)) * sin2_half_angle(sun->cap);
             continue;
         }
         low = min(low, center_of(lights[i]) - radius_of(lights[i]));

@@ -19,7 +19,7 @@ struct LightProxies {
     using Values = std::array<float, light_tree_width>;
     Values center_x{}, center_y{}, center_z{};  ///< of a sun: the direction towards it
     Values radius_m{};
-    Values radiance{};                          ///< 0: there is no such child
+    Values radiance{};                          ///< of either sign, as a magnitude; 0: there is no such child
     Values normal_x{}, normal_y{}, normal_z{};  ///< where a flat light or a spot shines; else 0
     Values cos_cone{};                          ///< of a spot's half-angle; 0 of a flat light
     Values least_lit{};                         ///< the falloff towards any point is at least this

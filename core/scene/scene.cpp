@@ -41,7 +41,7 @@ void require_valid(const Mesh& mesh) {
 void require_valid(const std::string& name, const Material& material) {
     const auto valid = [](const Rgb& c) { return is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f; };
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
-        !valid(material.dielectric_tint) || !valid(material.emission) || !std::isfinite(material.alpha) ||
+        !valid(material.dielectric_tint) || !is_finite(material.emission) || !std::isfinite(material.alpha) ||
         !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
         !(material.conductor_weight >= 0.0f)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
@@ -182,7 +182,7 @@ void Scene::commit() {
         if (light) active_lights_.push_back(light->light);
     }
     light_tree_ = LightTree(active_lights_);
-    has_unsampled_light_ = max_component(world_) > 0.0f;
+    has_unsampled_light_ = has_world();
     for (const auto& instance : instances_) {
         if (!instance) continue;
         for (const std::uint32_t material : instance->materials) {
@@ -193,7 +193,7 @@ void Scene::commit() {
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     if (!bent_cones_.empty()) return;
-    LightReach reach{.positions = {}, .is_infinite = max_component(world_) > 0.0f};
+    LightReach reach{.positions = {}, .is_infinite = has_world()};
     for (const Light& light : active_lights_) {
         if (const auto* sphere = std::get_if<SphereLight>(&light)) reach.positions.push_back(sphere->center);
         if (const auto* spot = std::get_if<SpotLight>(&light)) reach.positions.push_back(spot->sphere.center);

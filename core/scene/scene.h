@@ -53,6 +53,7 @@ class Scene {
 
     const Camera& camera() const { return camera_; }
     const Rgb& world() const { return world_; }
+    bool has_world() const { return max_component(abs(world_)) > 0.0f; }
     /// Every light there is, in the order they were added.
     const std::vector<Light>& lights() const { return active_lights_; }
     const LightTree& light_tree() const { return light_tree_; }

@@ -54,6 +54,17 @@ def test_spot(lights: Any) -> None:
     close(lights["turned"]["direction"], (0, 1, 0))
 
 
+def test_soft_falloff_is_a_disk_and_old_spots_fall_off_by_their_cosine(host: Host, lights: Any) -> None:
+    """As by default from Blender 4.1, and the only way before 4.0."""
+    assert lights["point"]["facing_disk"]
+    assert lights["spot"]["facing_disk"]
+    assert lights["spot"]["cosine"] is (host.version < (4, 0))
+    assert ("sphere" in lights) is (host.version >= (4, 1))
+    if "sphere" in lights:
+        assert not lights["sphere"]["facing_disk"]
+        assert not lights["sphere_spot"]["facing_disk"]
+
+
 def test_sun(lights: Any) -> None:
     sun = lights["sun"]
     assert sun["type"] == "SunLight"

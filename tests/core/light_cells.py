@@ -71,21 +71,30 @@ class FlatLight:
 SeenLight = CapLight | FlatLight
 
 
-def sphere(center: tuple[float, float, float], radius_m: float, radiance: float = 1.0) -> CapLight:
+def sphere(
+    center: tuple[float, float, float], radius_m: float, radiance: float = 1.0, facing_disk: bool = False
+) -> CapLight:
     distance = float(np.linalg.norm(center))
     sin2 = min((radius_m / distance) ** 2, 1.0)
     versine = sin2 / (1 + np.sqrt(1 - sin2)) if radius_m < distance else 2.0  # 2: all around
-    light = pivot_core.SphereLight(center, radius_m, (np.pi * radius_m**2 * radiance,) * 3)
+    if facing_disk:
+        versine = 1 - np.cos(np.arctan2(radius_m, distance))
+    light = pivot_core.SphereLight(center, radius_m, (np.pi * radius_m**2 * radiance,) * 3, facing_disk)
     return CapLight(light, np.array(center) / distance, versine)
 
 
 def spot(
-    center: tuple[float, float, float], radius_m: float, target: tuple[float, float, float], half_angle_rad: float
+    center: tuple[float, float, float],
+    radius_m: float,
+    target: tuple[float, float, float],
+    half_angle_rad: float,
+    facing_disk: bool = False,
+    cosine: bool = False,
 ) -> CapLight:
-    seen = sphere(center, radius_m)
+    seen = sphere(center, radius_m, facing_disk=facing_disk)
     direction = np.subtract(target, center) / np.linalg.norm(np.subtract(target, center))
-    intensity = (np.pi * radius_m**2,) * 3
-    light = pivot_core.SpotLight(center, radius_m, intensity, tuple(direction), np.cos(half_angle_rad), 0.5)
+    cone = tuple(direction), np.cos(half_angle_rad), 0.5
+    light = pivot_core.SpotLight(center, radius_m, (np.pi * radius_m**2,) * 3, *cone, facing_disk, cosine)
     return CapLight(light, seen.axis, seen.versine)
 
 

@@ -1,8 +1,6 @@
 """One scene per light type, rendered by Cycles and by Pivot in each light sampling; as files in the folder.
 
-Lights and materials are what both engines mean by them: from Blender 4.0 on spheres without soft falloff, and plastic.
-Before, Cycles takes a sphere for a disk and dims a spot towards its cone's edge, and its Principled is another: small
-spheres, a narrow cone and no plastic there.
+Materials are what both engines mean by them: before Blender 4.0 Principled is another, so that there is no plastic.
 """
 
 from __future__ import annotations
@@ -18,12 +16,15 @@ OLD = bpy.app.version < (4, 0)
 SIZE = 48
 CYCLES_SAMPLES = 256
 PIVOT_SAMPLES = {"JOINT": 256, "SPTD": 256, "MIS": 256, "LIGHT": 256, "BSDF": 1024}
-IN_EVERY_SAMPLING = ("point", "spot", "sun", "disk", "bounces")
-SPHERE: dict[str, Any] = {"shadow_soft_size": 0.02} if OLD else {"shadow_soft_size": 0.4, "use_soft_falloff": False}
-CONE = {"spot_size": math.radians(14 if OLD else 70), "spot_blend": 0.3}
+IN_EVERY_SAMPLING = ("point", "spot", "soft_point", "soft_spot", "sun", "disk", "bounces")
+SOFT: dict[str, Any] = {"shadow_soft_size": 1.0}
+SPHERE: dict[str, Any] = {"shadow_soft_size": 0.4} | ({} if OLD else {"use_soft_falloff": False})
+CONE = {"spot_size": math.radians(70), "spot_blend": 0.3}
 LIGHTS: dict[str, dict[str, Any]] = {
     "point": {"type": "POINT", "energy": 200} | SPHERE,
     "spot": {"type": "SPOT", "energy": 200} | SPHERE | CONE,
+    "soft_point": {"type": "POINT", "energy": 200} | SOFT,
+    "soft_spot": {"type": "SPOT", "energy": 200} | SOFT | CONE,
     "sun": {"type": "SUN", "energy": 2, "angle": 0.1 if OLD else 0.6},
     "square": {"type": "AREA", "energy": 60, "shape": "SQUARE", "size": 2.5},
     "rectangle": {"type": "AREA", "energy": 60, "shape": "RECTANGLE", "size": 3, "size_y": 1},

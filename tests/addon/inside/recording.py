@@ -36,6 +36,7 @@ class SphereLight:
     position: Any
     radius_m: float
     intensity: Any
+    facing_disk: bool = False
 
 
 @dataclass
@@ -46,6 +47,8 @@ class SpotLight:
     direction: Any
     cos_half_angle: float
     blend: float
+    facing_disk: bool = False
+    cosine: bool = False
 
 
 @dataclass
