@@ -54,7 +54,10 @@ class PivotSettings(bpy.types.PropertyGroup):
     )
     error_budget: FloatProperty(
         name="Error Budget",
-        description="The largest error that a cheaper method, or a pixel under adaptive sampling, may have",
+        description=(
+            "The largest error that closed forms, or a pixel under adaptive sampling, may have. Analytic shadows take "
+            "more rays the smaller it is; how far off they may be is in the Error pass"
+        ),
         default=2.0,
         min=0.01,
         max=100.0,
@@ -96,7 +99,10 @@ class PivotPasses(bpy.types.PropertyGroup):
     )
     use_pass_error: BoolProperty(
         name="Error",
-        description="The relative error that the analytic integrator predicts of each pixel",
+        description=(
+            "The relative error that the analytic integrator predicts of each pixel: of closed forms, of shadows and, "
+            "with several samples, of edges within the pixel"
+        ),
         update=_passes_changed,
     )
 

@@ -30,7 +30,7 @@ std::vector<Tile> make_tiles(int width, int height) {
 
 bool is_finite(const Sample& s) {
     const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method;
-    return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.predicted_error);
+    return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 
 void add(Sample& sum, const Sample& sample) {
@@ -40,7 +40,8 @@ void add(Sample& sum, const Sample& sample) {
     sum.albedo += sample.albedo;
     sum.emission += sample.emission;
     sum.method += sample.method;
-    sum.predicted_error += sample.predicted_error;
+    sum.error += sample.error;
+    sum.shadow_variance += sample.shadow_variance;
 }
 
 }  // namespace
@@ -208,6 +209,7 @@ std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint3
         pixel.count += 1;
         if (is_finite(samples[i])) {
             add(pixel.sum, samples[i]);
+            pixel.sum_of_squares += sqr(mean_component(samples[i].radiance));
         } else {
             report_bad_sample(frame_x0 + static_cast<int>(planned[i].pixel), frame_y, rays[i]);
         }

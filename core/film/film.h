@@ -21,7 +21,8 @@ struct Sample {
     Rgb albedo{0.0f};              ///< of the diffuse lobe at the first hit
     Rgb emission{0.0f};            ///< of the first hit itself
     Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
-    float predicted_error = 0.0f;  ///< analytic: relative, of the radiance
+    float error = 0.0f;            ///< analytic: predicted for what is in closed form, as radiance
+    float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared
 };
 
 /// What the ray through the pixel's centre meets; never averaged.
@@ -33,8 +34,15 @@ struct CenterSample {
 struct Pixel {
     Sample sum{.alpha = 0.0f};
     CenterSample center;
+    float sum_of_squares = 0.0f;  ///< of the samples' mean radiance over colours
     std::uint32_t count = 0;
 };
+
+/// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
+/// the closed forms, and that of evenly spread samples whose values differ, by shadows and edges in the pixel.
+float predicted_error(const Pixel& pixel);
+
+inline constexpr float least_radiance = 1e-3f;
 
 struct Tile {
     int x0, y0, x1, y1;

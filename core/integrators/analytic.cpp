@@ -17,6 +17,7 @@ constexpr std::array<std::array<float, 3>, method_names.size()> method_colors{{{
                                                                                {0.9f, 0.6f, 0.0f},
                                                                                {1.0f, 0.35f, 0.0f},
                                                                                {1.0f, 0.05f, 0.0f},
+                                                                               {0.5f, 0.0f, 0.2f},
                                                                                {0.5f, 0.2f, 0.8f},
                                                                                {0.9f, 0.2f, 0.6f},
                                                                                {0.4f, 0.4f, 0.4f},
@@ -28,15 +29,19 @@ Rgb color_of(Method method) {
     return {c[0], c[1], c[2]};
 }
 
-/// A pixel's direct light so far: its methods and errors are weighted by what they contribute.
+float size_of(const Rgb& light) { return mean_component(abs(light)); }
+
+/// A point's direct light so far, the methods weighted by what they contribute.
 struct Gathered {
     Rgb radiance{0.0f}, method{0.0f};
-    float error = 0.0f;
+    float size = 0.0f;  ///< of the light, whatever its sign
+    float error = 0.0f, shadow_variance = 0.0f;
 
-    void add(const Rgb& light, Method how, float predicted_error) {
+    void add(const Rgb& light, Method how, float relative_error) {
         radiance += light;
-        method += max_component(light) * color_of(how);
-        error += max_component(light) * predicted_error;
+        size += size_of(light);
+        method += size_of(light) * color_of(how);
+        error += size_of(light) * relative_error;
     }
 };
 
@@ -55,12 +60,15 @@ Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const F
     return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points); }, shading);
 }
 
+/// A cone cannot tell which part of a light it leaves: of one seen in part, it may be any.
+float error_of_bent_cone(const Rgb& whole, float seen) { return size_of(whole) * std::min(seen, 1.0f - seen); }
+
 /// The largest part that one light's reflection has of any lane's total.
 float largest_share(const Reflection& reflection, std::span<const float> totals) {
     float share = 0.0f;
     for (std::size_t i = 0; i < totals.size(); ++i)
         if (totals[i] > 0.0f)
-            share = std::max(share, max_component(reflection.diffuse[i] + reflection.glossy[i]) / totals[i]);
+            share = std::max(share, (size_of(reflection.diffuse[i]) + size_of(reflection.glossy[i])) / totals[i]);
     return share;
 }
 
@@ -74,7 +82,7 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
         shadings.push_back(shade_light(light, batch, settings));
         const Reflection& reflection = reflection_of(shadings.back());
         for (std::size_t i = 0; i < batch.count; ++i)
-            totals[i] += max_component(reflection.diffuse[i] + reflection.glossy[i]);
+            totals[i] += size_of(reflection.diffuse[i]) + size_of(reflection.glossy[i]);
     }
     for (std::size_t k = 0; k < shadings.size(); ++k) {
         Reflection reflection = reflection_of(shadings[k]);
@@ -86,54 +94,80 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
             if (settings.occlusion == Occlusion::bent_cone) {
                 const auto& [point, surface, bent_cone] = *batch.lanes[i];
                 const SeenShare seen = seen_share(scene.lights()[k], bent_cone, point, surface);
+                gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
+                                     error_of_bent_cone(reflection.glossy[i], seen.glossy);
                 reflection.diffuse[i] *= seen.diffuse;
                 reflection.glossy[i] *= seen.glossy;
             }
-            gathered[i].add(reflection.diffuse[i], Method::points_1, 0.0f);
-            gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.predicted_error[i]);
+            gathered[i].add(reflection.diffuse[i], Method::points_1, reflection.diffuse_error[i]);
+            gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
+            gathered[i].shadow_variance += reflection.shadow_variance[i];
         }
     }
 }
 
-Rgb shade_world(const Scene& scene, const ShadingPoint& shading, const RenderSettings& settings,
-                const FixedPoints& points) {
+LaneShares world_seen_by_rays(const Scene& scene, const FixedPoints& points, const ShadingPoint& shading) {
     const auto& [point, surface, bent_cone] = shading;
+    struct Probe {
+        VisibleShare LaneShares::*share;
+        float weight;
+        bool is_faced;
+    };
     std::vector<Ray> rays;
-    std::vector<Rgb> weights;
-    const auto add = [&](const Vec3f& wi_local, const Rgb& weight) {
+    std::vector<Probe> probes;
+    const auto add = [&](const Vec3f& wi_local, VisibleShare LaneShares::*share, float weight) {
         const Vec3f wi = point.frame.to_world(wi_local);
-        if (!point.faces(wi)) return;
         rays.push_back({point.ray_origin(wi), wi});
-        weights.push_back(weight);
+        probes.push_back({share, weight, point.faces(wi)});
     };
     const std::uint32_t count = points.count();
     for (std::uint32_t k = 0; k < count; ++k) {
         if (surface.has_diffuse())
-            add(sample_cosine_hemisphere(points.point(PointSet::world_diffuse, k, count)), surface.diffuse);
+            add(sample_cosine_hemisphere(points.point(PointSet::world_diffuse, k, count)), &LaneShares::diffuse, 1.0f);
         if (!surface.has_glossy()) continue;
         const float alpha = surface.alpha;
         const Vec3f wi_local =
             ggx_sample(surface.wo_local, alpha, alpha, points.point(PointSet::world_glossy, k, count));
         if (wi_local.z <= 0.0f) continue;
-        add(wi_local, eval_glossy(surface, wi_local) / ggx_pdf_omega(surface.wo_local, wi_local, alpha, alpha));
+        add(wi_local, &LaneShares::glossy,
+            size_of(eval_glossy(surface, wi_local)) / ggx_pdf_omega(surface.wo_local, wi_local, alpha, alpha));
     }
     std::vector<std::uint8_t> occluded(rays.size());
-    if (settings.occlusion == Occlusion::ray_traced) scene.occluded(rays, occluded);
-    Rgb reflected(0.0f);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (!occluded[i] && (settings.occlusion != Occlusion::bent_cone || contains(bent_cone, rays[i].direction)))
-            reflected += weights[i];
-    return scene.world() * reflected / static_cast<float>(count);
+    scene.occluded(rays, occluded);
+    LaneShares shares;
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        (shares.*probes[r].share).add(probes[r].weight, !occluded[r] && probes[r].is_faced);
+    return shares;
+}
+
+/// The world's light, which each lobe reflects by its albedo, times the share that each lobe's fixed directions see.
+void add_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+               const ShadingPoint& shading, Gathered& gathered) {
+    const auto& [point, surface, bent_cone] = shading;
+    const Rgb diffuse = scene.world() * surface.diffuse;
+    const Rgb glossy = surface.has_glossy() ? scene.world() * glossy_albedo(surface) : Rgb(0.0f);
+    LaneShares shares;
+    float missed = 0.0f;
+    if (settings.occlusion == Occlusion::ray_traced) {
+        shares = world_seen_by_rays(scene, points, shading);
+        missed = points.missed_variance();
+    } else if (settings.occlusion == Occlusion::bent_cone) {
+        const SeenShare seen = seen_share_of_world(bent_cone, point, surface);
+        gathered.error += error_of_bent_cone(diffuse, seen.diffuse) + error_of_bent_cone(glossy, seen.glossy);
+        shares = {{seen.diffuse, 1.0f}, {seen.glossy, 1.0f}};
+    }
+    gathered.add(diffuse * shares.diffuse.value(), Method::point_set, 0.0f);
+    gathered.add(glossy * shares.glossy.value(), Method::point_set, error_of_albedo);
+    gathered.shadow_variance += sqr(size_of(diffuse) * sqrt(std::max(shares.diffuse.variance(), missed)) +
+                                    size_of(glossy) * sqrt(std::max(shares.glossy.variance(), missed)));
 }
 
 void shade_batch(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                  std::span<const ShadingPoint> shading, std::span<Gathered> gathered) {
     const SurfaceBatch batch = make_batch(shading);
     if (batch.has_diffuse || batch.has_glossy) add_lights(scene, settings, points, batch, gathered);
-    if (max_component(scene.world()) > 0.0f) {
-        for (std::size_t i = 0; i < shading.size(); ++i)
-            gathered[i].add(shade_world(scene, shading[i], settings, points), Method::point_set, 0.0f);
-    }
+    if (!scene.has_world()) return;
+    for (std::size_t i = 0; i < shading.size(); ++i) add_world(scene, settings, points, shading[i], gathered[i]);
 }
 
 }  // namespace
@@ -169,10 +203,11 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
                     std::span(gathered).first(count));
         for (std::size_t i = 0; i < count; ++i) {
             Sample& sample = samples[pixel[first + i]];
-            const float weight = max_component(gathered[i].radiance);
-            sample.radiance += gathered[i].radiance;
-            sample.method = weight > 0.0f ? gathered[i].method / weight : Rgb(0.0f);
-            sample.predicted_error = weight > 0.0f ? gathered[i].error / weight : 0.0f;
+            const Gathered& light = gathered[i];
+            sample.radiance += light.radiance;
+            sample.method = light.size > 0.0f ? light.method / light.size : Rgb(0.0f);
+            sample.error = light.error;
+            sample.shadow_variance = light.shadow_variance;
         }
     }
 }

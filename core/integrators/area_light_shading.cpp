@@ -42,8 +42,7 @@ LobeIntegral<Batch> integrate_ltc(const SurfaceBatch& batch, const AreaLight& li
 LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight& light,
                                      const AreaOutline<Batch>& outline, const RenderSettings& settings) {
     if (settings.analytic_method == AnalyticMethod::ltc) return integrate_ltc(batch, light);
-    const bool automatic = settings.analytic_method == AnalyticMethod::automatic;
-    return integrate(batch.lobe, outline, Batch(automatic ? 0.01f * settings.error_budget_percent : 5e-4f));
+    return integrate(batch.lobe, outline, max(budget_of(settings), Batch(5e-4f)));
 }
 
 }  // namespace
@@ -93,17 +92,10 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const FixedPoints&
     for (std::size_t r = 0; r < rays.size(); ++r) {
         LaneShares& share = shares[lanes[r]];
         const bool is_seen = !occluded[r] && batch_.lanes[lanes[r]]->point.faces(rays[r].direction);
-        share.diffuse.all += cosines[r];
-        share.glossy.all += lobes[r];
-        if (is_seen) share.diffuse.seen += cosines[r];
-        if (is_seen) share.glossy.seen += lobes[r];
+        share.diffuse.add(cosines[r], is_seen);
+        share.glossy.add(lobes[r], is_seen);
     }
-    Reflection seen = reflection_;
-    for (std::size_t i = 0; i < batch_.count; ++i) {
-        seen.diffuse[i] *= shares[i].diffuse.value();
-        seen.glossy[i] *= shares[i].glossy.value();
-    }
-    return seen;
+    return seen_in_part(reflection_, std::span(shares).first(batch_.count));
 }
 
 }  // namespace pivot

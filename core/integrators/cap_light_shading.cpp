@@ -11,7 +11,7 @@ namespace {
 Cap<Batch> local_cap(const Light& light, const SurfaceBatch& batch) {
     Cap<Batch> cap;
     if (const SphereLight* sphere = sphere_of(light)) {
-        cap = cap_of_sphere(broadcast(sphere->center) - batch.position, Batch(sphere->radius_m));
+        cap = cap_from(*sphere, batch.position);
     } else {
         const Cap<float>& sun = std::get<SunLight>(light).cap;
         cap = {broadcast(sun.axis), Batch(sun.versine)};
@@ -71,7 +71,7 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
                 Reflection& reflection) {
     const Lanes plain = store(integral.sums.plain), schlick = store(integral.sums.schlick),
                 dielectric = store(integral.sums.dielectric), method = store(integral.method);
-    reflection.predicted_error = store(integral.predicted_error);
+    reflection.glossy_error = store(integral.predicted_error);
     for (std::size_t i = 0; i < batch.count; ++i) {
         const Surface& surface = batch.lanes[i]->surface;
         reflection.method[i] = static_cast<Method>(method[i]);
@@ -83,13 +83,38 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
     }
 }
 
+Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> shares) {
+    Reflection seen = whole;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        // A lobe that gives little has no points of its own, and what it sees may be more or less.
+        const auto& [diffuse, glossy] = shares[i];
+        const VisibleShare& of_diffuse = diffuse.all > 0.0f ? diffuse : glossy;
+        const VisibleShare& of_glossy = glossy.all > 0.0f ? glossy : diffuse;
+        seen.diffuse[i] *= of_diffuse.value();
+        seen.glossy[i] *= of_glossy.value();
+        if (!(diffuse.all > 0.0f)) seen.diffuse_error[i] += 1.0f - of_diffuse.value();
+        if (!(glossy.all > 0.0f)) seen.glossy_error[i] += 1.0f - of_glossy.value();
+        seen.shadow_variance[i] = sqr(mean_component(abs(whole.diffuse[i])) * sqrt(of_diffuse.variance()) +
+                                      mean_component(abs(whole.glossy[i])) * sqrt(of_glossy.variance()));
+    }
+    return seen;
+}
+
 CapLightShading::CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings)
-    : light_(light), batch_(batch), cap_(local_cap(light, batch)), falloff_varies_(cap_.versine < Batch(0.0f)) {
+    : light_(light),
+      batch_(batch),
+      cap_(local_cap(light, batch)),
+      budget_(budget_of(settings)),
+      falloff_varies_(cap_.versine < Batch(0.0f)),
+      has_edge_(falloff_varies_) {
     if (const auto* spot = std::get_if<SpotLight>(&light)) {
         falloff_ = {spot, batch.frame.to_local(broadcast(spot->direction))};
-        const Batch cosine = -dot(falloff_.direction_local, cap_.axis), sine = safe_sqrt(Batch(1.0f) - sqr(cosine));
-        const Batch turn = sqrt(sin2_half_angle(cap_)) * sine, rest = cosine * cos_half_angle(cap_);
-        falloff_varies_ = spot_falloff(*spot, rest - turn) != spot_falloff(*spot, rest + turn);
+        span_ = beam_span(-falloff_.direction_local, cap_);
+        const Batch low = spot_falloff(*spot, span_.low), high = spot_falloff(*spot, span_.high);
+        falloff_varies_ = low != high;
+        falloff_error_ = error_of_falloff(high - low, (span_.high - span_.low) / Batch(spot_falloff_width(*spot)),
+                                          falloff_(cap_.axis));
+        has_edge_ = falloff_varies_ && falloff_error_ > budget_;
     }
     if (batch.has_glossy) reflect_glossy(settings);
     if (batch.has_diffuse) reflect_diffuse();
@@ -110,12 +135,30 @@ void CapLightShading::reflect_glossy(const RenderSettings& settings) {
         integral.predicted_error = Batch(1.0f);
         integral.method = detail::number_of<Batch>(is_sptd ? Method::sptd : Method::ltc);
     } else {
-        // EXACT takes the best there is
-        const bool automatic = settings.analytic_method == AnalyticMethod::automatic;
-        const Batch budget(automatic ? 0.01f * settings.error_budget_percent : 1e-4f);
-        integral = integrate(*exact_, budget, falloff_, falloff_varies_);
+        integral = integrate(*exact_, budget_, falloff_, falloff_varies_ && !has_edge_);
+        integral.predicted_error += select(falloff_varies_ && !has_edge_, falloff_error_, Batch(0.0f));
+        if (any(has_edge_)) cut_by_beam(integral);
     }
     put_glossy(batch_, integral, radiance_of(light_), reflection_);
+}
+
+void CapLightShading::cut_by_beam(LobeIntegral<Batch>& integral) const {
+    const SpotLight& spot = *falloff_.spot;
+    // A light around -wo has no disk to cut: what the beam leaves of it is guessed from the beam at its centre.
+    const BatchMask on_disk = has_edge_ && !exact_->surrounds;
+    const LobeIntegral<Batch> whole = integrate(*exact_, budget_);
+    LobeSums<Batch> sums = whole.sums * spot_falloff(spot, span_.low);
+    for_each_layer<beam_layers>(spot, span_, [&](const Batch& cosine, const Batch& rise) {
+        const Cap<Batch> cone{-falloff_.direction_local, Batch(1.0f) - cosine};
+        sums += integrate_within(*exact_, cone, budget_, on_disk) * rise;
+    });
+    const Batch guessed = falloff_(cap_.axis);
+    sums = select<Batch>(on_disk, sums, whole.sums * guessed);
+    const Batch error = select(exact_->crosses, Batch(error_of_beam_across_horizon), error_of_slices(budget_));
+    integral.sums = select<Batch>(has_edge_, sums, integral.sums);
+    integral.predicted_error =
+        select(has_edge_, select(on_disk, error, max(guessed, Batch(1.0f) - guessed)), integral.predicted_error);
+    integral.method = select(has_edge_, detail::number_of<Batch>(Method::beam_layers), integral.method);
 }
 
 void CapLightShading::reflect_diffuse() {
@@ -135,7 +178,9 @@ void CapLightShading::reflect_diffuse() {
             }
             mean = select(weights > Batch(0.0f), sum / max(weights, tiny<Batch>), mean);
         }
-        share *= mean;
+        share = select(has_edge_, cosine_in_beam(share), share * mean);
+        reflection_.diffuse_error =
+            store(select(falloff_varies_, select(has_edge_, Batch(error_of_beam_layers), falloff_error_), Batch(0.0f)));
     }
     const Lanes shares = store(share);
     const Rgb radiance = radiance_of(light_);
@@ -143,28 +188,43 @@ void CapLightShading::reflect_diffuse() {
         reflection_.diffuse[i] = radiance * batch_.lanes[i]->surface.diffuse * shares[i];
 }
 
+Batch CapLightShading::cosine_in_beam(Batch whole) const {
+    const SpotLight& spot = *falloff_.spot;
+    const Vec3f normal(0.0f, 0.0f, 1.0f);
+    const auto wanted = store(has_edge_);
+    const Lanes axis_x = store(cap_.axis.x), axis_y = store(cap_.axis.y), axis_z = store(cap_.axis.z);
+    const Lanes versine = store(cap_.versine), low = store(span_.low), high = store(span_.high);
+    const Vec3b to_beam = -falloff_.direction_local;
+    const Lanes beam_x = store(to_beam.x), beam_y = store(to_beam.y), beam_z = store(to_beam.z);
+    Lanes sums = store(whole * spot_falloff(spot, span_.low));
+    for (std::size_t i = 0; i < batch_.count; ++i) {
+        if (!wanted[i]) continue;
+        const Cap<float> cap{{axis_x[i], axis_y[i], axis_z[i]}, versine[i]};
+        for_each_layer<beam_layers>(spot, BeamSpan<float>{low[i], high[i]}, [&](float cosine, float rise) {
+            const std::array<Cap<float>, 2> both{cap, {{beam_x[i], beam_y[i], beam_z[i]}, 1.0f - cosine}};
+            sums[i] += rise * clamped_cosine_integral(both, normal) / pi<float>;
+        });
+    }
+    return load(sums);
+}
+
 Reflection CapLightShading::seen_by_rays(const Scene& scene, const FixedPoints& points) const {
     bool wants_diffuse = false, wants_glossy = false;
     for (std::size_t i = 0; i < batch_.count; ++i) {
-        const float diffuse = max_component(reflection_.diffuse[i]), glossy = max_component(reflection_.glossy[i]);
+        const float diffuse = max_component(abs(reflection_.diffuse[i]));
+        const float glossy = max_component(abs(reflection_.glossy[i]));
         wants_diffuse |= diffuse > 0.05f * glossy;
         wants_glossy |= glossy > 0.05f * diffuse;
     }
-    Reflection seen = reflection_;
-    if (!wants_diffuse && !wants_glossy) return seen;
+    if (!wants_diffuse && !wants_glossy) return reflection_;
 
     // A first round finds what is all seen or all hidden; a second spends more where it is mixed.
     std::array<LaneShares, batch_size> shares{};
-    const std::uint32_t all = points.count(), first = all < 8 ? all : all / 4;
+    const std::uint32_t all = points.count(), first = points.first_count();
     trace(scene, points, wants_diffuse, wants_glossy, {0, first, all}, shares);
     const bool mixed = std::any_of(shares.begin(), shares.end(), [](const LaneShares& s) { return s.is_mixed(); });
     if (mixed && first < all) trace(scene, points, wants_diffuse, wants_glossy, {first, all, all}, shares);
-    for (std::size_t i = 0; i < batch_.count; ++i) {
-        const auto& [diffuse, glossy] = shares[i];
-        seen.diffuse[i] *= diffuse.all > 0.0f ? diffuse.value() : glossy.value();
-        seen.glossy[i] *= glossy.all > 0.0f ? glossy.value() : diffuse.value();
-    }
-    return seen;
+    return seen_in_part(reflection_, std::span(shares).first(batch_.count));
 }
 
 void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool wants_diffuse, bool wants_glossy,
@@ -207,10 +267,8 @@ void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool 
     }
     std::vector<std::uint8_t> occluded(rays.size());
     scene.occluded(rays, occluded);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-        probes[r].share->all += probes[r].weight;
-        if (!occluded[r] && probes[r].is_faced) probes[r].share->seen += probes[r].weight;
-    }
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        probes[r].share->add(probes[r].weight, !occluded[r] && probes[r].is_faced);
 }
 
 }  // namespace pivot

@@ -4,13 +4,15 @@
 #include "core/integrators/fixed_points.h"
 #include "core/integrators/surface_batch.h"
 #include "core/scene/scene.h"
+#include "core/shading/spot_beam.h"
 
 namespace pivot {
 
-/// What each lane reflects of a light towards the viewer.
+/// What each lane reflects of a light towards the viewer, and how far off that may be.
 struct Reflection {
     std::array<Rgb, batch_size> diffuse, glossy;
-    Lanes predicted_error;  ///< relative, of glossy
+    Lanes diffuse_error, glossy_error;  ///< predicted, relative to each
+    Lanes shadow_variance;              ///< what the rays leave of the share that is seen: radiance squared
     std::array<Method, batch_size> method;
 };
 
@@ -20,9 +22,21 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
 
 /// The share of a light that is seen, so far.
 struct VisibleShare {
-    float seen = 0.0f, all = 0.0f;
+    float seen = 0.0f, all = 0.0f, squares = 0.0f;
+
+    void add(float weight, bool is_seen) {
+        all += weight;
+        squares += weight * weight;
+        if (is_seen) seen += weight;
+    }
     float value() const { return all > 0.0f ? seen / all : 1.0f; }
     bool is_mixed() const { return seen > 0.0f && seen < all; }
+    /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
+    float variance() const {
+        if (!is_mixed()) return 0.0f;
+        const float inverse_count = squares / (all * all);
+        return value() * (1.0f - value()) * inverse_count * sqrt(inverse_count);
+    }
 };
 
 /// Of one lane, by each lobe's points.
@@ -32,6 +46,9 @@ struct LaneShares {
         return diffuse.is_mixed() || glossy.is_mixed() || (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
     }
 };
+
+/// What is left of a reflection where each lane's lobes see these shares.
+Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> shares);
 
 /// What a spot's beam leaves of its radiance towards each lane; nothing is lost of other lights.
 struct BeamFalloff {
@@ -66,12 +83,20 @@ class CapLightShading {
                const PointRange& range, std::array<LaneShares, batch_size>& shares) const;
     void reflect_glossy(const RenderSettings& settings);
     void reflect_diffuse();
+    /// Writes over the lanes of the exact core's integral in which the light crosses the beam's edge.
+    void cut_by_beam(LobeIntegral<Batch>& integral) const;
+    /// The diffuse lobe's share of such lanes; whole: of the light without its beam.
+    Batch cosine_in_beam(Batch whole) const;
 
     const Light& light_;
     const SurfaceBatch& batch_;
     Cap<Batch> cap_;  // shading frame
     BeamFalloff falloff_;
-    BatchMask falloff_varies_;
+    Batch budget_;
+    BeamSpan<Batch> span_{};             // of a spot
+    Batch falloff_error_ = Batch(0.0f);  // what points on the light make of its falloff, relative
+    BatchMask falloff_varies_;           // over the light
+    BatchMask has_edge_;                 // so that points on the light miss the budget
     std::optional<GgxCapLight<Batch>> exact_;
     Reflection reflection_{};
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "core/integrators/settings.h"
 #include "core/scene/surface_point.h"
 #include "core/shading/ggx_cap_light.h"
 #include "core/simd/batch.h"
@@ -24,6 +25,11 @@ struct SurfaceBatch {
     GgxLobe<Batch> lobe;                           // of alpha 1 where there is none
     bool has_diffuse = false, has_glossy = false;  // in some lane
 };
+
+/// The error that closed forms may make, relative; method EXACT takes the best there is.
+inline Batch budget_of(const RenderSettings& settings) {
+    return Batch(settings.analytic_method == AnalyticMethod::exact ? 1e-4f : 0.01f * settings.error_budget_percent);
+}
 
 /// How much larger Fresnel's curve is at grazing than at normal incidence, relative.
 inline float fresnel_contrast(const LobeFresnel& f) {

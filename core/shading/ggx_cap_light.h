@@ -37,6 +37,17 @@ void add(LobeSums<T>& sums, const GgxLobe<T>& lobe, T cos_oh, T value) {
 }
 
 template <class T>
+LobeSums<T> operator*(const LobeSums<T>& sums, T factor) {
+    return {sums.plain * factor, sums.schlick * factor, sums.dielectric * factor};
+}
+
+template <class T>
+LobeSums<T>& operator+=(LobeSums<T>& a, const LobeSums<T>& b) {
+    a.plain += b.plain, a.schlick += b.schlick, a.dielectric += b.dielectric;
+    return a;
+}
+
+template <class T>
 LobeSums<T> select(const Mask<T>& condition, const LobeSums<T>& a, const LobeSums<T>& b) {
     return {select(condition, a.plain, b.plain), select(condition, a.schlick, b.schlick),
             select(condition, a.dielectric, b.dielectric)};
@@ -227,6 +238,19 @@ struct PointError {
     T one, at_most;  // relative; at_most: of leaving the light out
 };
 
+/// The lanes that the cheapest slices within a budget are taken of.
+template <class T>
+struct SliceChoice {
+    Mask<T> five, six, eight;
+};
+
+template <class T>
+SliceChoice<T> choose_slices(T budget, const Mask<T>& wanted) {
+    const T floor = max(budget, T(error_of_slices_8));
+    const auto eight = wanted && floor < T(error_of_slices_6), five = wanted && !(floor < T(error_of_slices_5));
+    return {five, wanted && !eight && !five, eight};
+}
+
 /// By the cheapest rule that is good enough, for the lanes where one point is not. Apart from that, which is most
 /// lights' case.
 template <class T, class Falloff>
@@ -270,13 +294,12 @@ template <class T, class Falloff>
         }
     }
     if (any(needs_slices)) {
-        const T floor = max(budget, T(error_of_slices_8));
-        const auto by_8 = needs_slices && floor < T(error_of_slices_6);
-        const auto by_5 = needs_slices && !(floor < T(error_of_slices_5));
-        const auto by_6 = needs_slices && !by_8 && !by_5;
-        if (any(by_5)) take(by_5, sum_slices<5>(*slices, by_5, summer), T(error_of_slices_5), Method::slices_5);
-        if (any(by_6)) take(by_6, sum_slices<6>(*slices, by_6, summer), T(error_of_slices_6), Method::slices_6);
-        if (any(by_8)) take(by_8, sum_slices<8>(*slices, by_8, summer), T(error_of_slices_8), Method::slices_8);
+        const SliceChoice<T> by = choose_slices(budget, needs_slices);
+        if (any(by.five))
+            take(by.five, sum_slices<5>(*slices, by.five, summer), T(error_of_slices_5), Method::slices_5);
+        if (any(by.six)) take(by.six, sum_slices<6>(*slices, by.six, summer), T(error_of_slices_6), Method::slices_6);
+        if (any(by.eight))
+            take(by.eight, sum_slices<8>(*slices, by.eight, summer), T(error_of_slices_8), Method::slices_8);
         take(needs_slices && slices->none, {}, T(0), Method::none);
     }
 }
@@ -316,6 +339,27 @@ template <class T>
 LobeIntegral<T> integrate(const GgxCapLight<T>& light, T budget) {
     const auto never = light.cap.versine < T(0);
     return integrate(light, budget, Unattenuated(), never);
+}
+
+/// What slices are off by within a budget.
+template <class T>
+T error_of_slices(T budget) {
+    const detail::SliceChoice<T> by = detail::choose_slices(budget, budget == budget);
+    return select(by.five, T(error_of_slices_5), select(by.six, T(error_of_slices_6), T(error_of_slices_8)));
+}
+
+/// The lobe over what of the light lies in another cap too, in the lanes that are wanted; these must not surround -wo.
+template <class T>
+LobeSums<T> integrate_within(const GgxCapLight<T>& light, const Cap<T>& other, T budget, const Mask<T>& wanted) {
+    const GgxSlices<T> slices = ggx_slices(light.chart, other);
+    const detail::SliceChoice<T> by = detail::choose_slices(budget, wanted && !light.below && !slices.none);
+    const Unattenuated falloff;
+    const detail::LobeSummer<T, Unattenuated> summer{light.lobe, light.g2, falloff, {}};
+    LobeSums<T> sums;
+    if (any(by.five)) sums = select<T>(by.five, detail::sum_slices<5>(slices, by.five, summer), sums);
+    if (any(by.six)) sums = select<T>(by.six, detail::sum_slices<6>(slices, by.six, summer), sums);
+    if (any(by.eight)) sums = select<T>(by.eight, detail::sum_slices<8>(slices, by.eight, summer), sums);
+    return sums;
 }
 
 }  // namespace pivot

@@ -21,6 +21,7 @@ enum class Method : unsigned char {
     slices_5,  ///< the exact core's disk, cut at the horizon, by 5 x 5, 6 x 6 or 8 x 8 points a panel
     slices_6,
     slices_8,
+    beam_layers,      ///< slices of the exact core's disk within each cone of a spot's beam
     area_points,      ///< points of an area light, spread as the lobe sees it
     lobe_directions,  ///< directions of the lobe that meet an area light
     sptd,
@@ -28,9 +29,9 @@ enum class Method : unsigned char {
     point_set,  ///< light from everywhere
 };
 
-inline constexpr std::array<std::string_view, 13> method_names{
-    "NONE",     "POINTS_1",    "POINTS_4",        "POINTS_8", "POINTS_16", "SLICES_5", "SLICES_6",
-    "SLICES_8", "AREA_POINTS", "LOBE_DIRECTIONS", "SPTD",     "LTC",       "POINT_SET"};
+inline constexpr std::array<std::string_view, 14> method_names{
+    "NONE",     "POINTS_1",    "POINTS_4",    "POINTS_8",        "POINTS_16", "SLICES_5", "SLICES_6",
+    "SLICES_8", "BEAM_LAYERS", "AREA_POINTS", "LOBE_DIRECTIONS", "SPTD",      "LTC",      "POINT_SET"};
 
 /// The error of the exact core's one point, for a cap of the given versine that does not cross the horizon. What the
 /// point takes for constant is masking-shadowing: its relative slope along z, and the slope's own scale, z.
@@ -51,6 +52,22 @@ inline constexpr float error_left_by_points_16 = 0.4f;
 inline constexpr float error_of_slices_5 = 0.014f;
 inline constexpr float error_of_slices_6 = 0.006f;
 inline constexpr float error_of_slices_8 = 0.0025f;
+
+/// What 16 points on a light are off by under a spot's falloff, relative to `center`, the falloff at the light's
+/// middle: the light spans `rise` of the falloff, and `widths` times the width of the beam's edge.
+template <class T>
+T error_of_falloff(T rise, T widths, T center) {
+    return max(T(0.011f), T(0.009f) * widths) * rise * inverse(max(center, T(1e-3f)));
+}
+
+/// A beam's edge as a stack of this many cones, and what the stack is off by.
+inline constexpr int beam_layers = 4;
+inline constexpr float error_of_beam_layers = 0.001f;
+/// The same where the light also crosses the horizon, which slices across the beam's edge do not see.
+inline constexpr float error_of_beam_across_horizon = 0.1f;
+
+/// The tables of what a lobe reflects of light from everywhere are interpolated.
+inline constexpr float error_of_albedo = 0.005f;
 
 /// Errors are relative, but to no less than this share of the light's radiance.
 inline constexpr float least_value = 1e-3f;
