@@ -26,91 +26,154 @@ Rgb lights_met(const Scene& scene, LightSampling strategy, const Vertex& vertex,
     return radiance;
 }
 
-/// The path from its first vertex on, whose own light is in. shares: whether the first BSDF sample counts lights.
-void follow_path(const Scene& scene, const RenderSettings& settings, Vertex vertex, bool shares, Sample& sample) {
-    const LightSampling strategy = settings.light_sampling;
-    Rgb throughput(1.0f);
-    for (std::uint32_t bounce = 0;; ++bounce) {
-        if (bounce == settings.max_bounces && !shares && !scene.has_unsampled_light()) return;
+/// Paths that have reached the same bounce: their vertices side by side, for batches and packets.
+struct Paths {
+    std::vector<Vertex> vertices;
+    std::vector<Rgb> throughput;
+    std::vector<std::size_t> sample;   ///< of the caller's
+    std::vector<std::uint8_t> shares;  ///< whether the vertex' BSDF sample counts lights
+
+    std::size_t size() const { return vertices.size(); }
+
+    void reserve(std::size_t count) {
+        vertices.reserve(count);
+        throughput.reserve(count);
+        sample.reserve(count);
+    }
+
+    void add(const Vertex& vertex, const Rgb& weight, std::size_t of_sample) {
+        vertices.push_back(vertex);
+        throughput.push_back(weight);
+        sample.push_back(of_sample);
+    }
+
+    void keep(std::size_t count) {
+        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(count), vertices.end());
+        throughput.resize(count);
+        sample.resize(count);
+    }
+};
+
+Vertex make_vertex(const Scene& scene, const Sampler& sampler, const SurfacePoint& point, std::uint32_t bounce) {
+    return {.sampler = sampler,
+            .point = point,
+            .surface = make_surface(*point.material, point.wo_local),
+            .dimensions = Dimensions(bounce),
+            .light_samples = std::min(scene.lights().size(), bounce == 0 ? max_light_samples : 1)};
+}
+
+/// The camera's rays; those that meet nothing end here.
+Paths start_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
+                  std::span<const Sampler> samplers, std::span<Sample> samples) {
+    std::vector<std::optional<RayHit>> hits(camera_rays.size());
+    scene.intersect(camera_rays, visible_to_camera, hits);
+    Paths paths;
+    paths.reserve(camera_rays.size());
+    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
+        Sample& sample = samples[i] = {};
+        if (!hits[i]) {
+            if (settings.transparent_film) sample.alpha = 0.0f;
+            if (!settings.transparent_film) sample.radiance = scene.world();
+            continue;
+        }
+        const Vertex vertex = make_vertex(scene, samplers[i], scene.surface_point(camera_rays[i], *hits[i]), 0);
+        sample.radiance = sample.emission = vertex.point.material->emission;
+        sample.normal = vertex.point.frame.z;
+        sample.albedo = vertex.surface.diffuse;
+        paths.add(vertex, Rgb(1.0f), i);
+    }
+    return paths;
+}
+
+/// The light that reaches each vertex straight from the lights.
+void add_light(const Scene& scene, const RenderSettings& settings, Paths& paths, std::span<Sample> samples) {
+    std::vector<Rgb> direct(paths.size(), Rgb(0.0f));
+    paths.shares.assign(paths.size(), 0);
+    add_direct_light(scene, settings.light_sampling, paths.vertices, direct, paths.shares);
+    for (std::size_t i = 0; i < paths.size(); ++i) samples[paths.sample[i]].radiance += paths.throughput[i] * direct[i];
+}
+
+/// A BSDF sample of each path: its ray, and what the path is worth along it.
+struct Scattered {
+    std::vector<Ray> rays;
+    std::vector<float> pdf_omega;
+};
+
+/// Paths whose sample is worth nothing are dropped, and so are, at the last bounce, those that can meet no light; the
+/// others move up.
+Scattered scatter(Paths& paths, bool is_for_shared_lights) {
+    Scattered scattered;
+    scattered.rays.reserve(paths.size());
+    scattered.pdf_omega.reserve(paths.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (is_for_shared_lights && !paths.shares[i]) continue;
+        const Vertex& vertex = paths.vertices[i];
         const SurfacePoint& point = vertex.point;
         const Vec3f wi_local = pivot::sample(vertex.surface, vertex.sampler.number(vertex.dimensions.lobe()),
                                              vertex.sampler.point(vertex.dimensions.direction()));
         const Vec3f wi = point.frame.to_world(wi_local);
         const float bsdf_pdf_omega = pdf_omega(vertex.surface, wi_local);
-        if (!(bsdf_pdf_omega > 0.0f) || !point.faces(wi)) return;
-        throughput *= eval(vertex.surface, wi_local) / bsdf_pdf_omega;
-        if (max_component(throughput) <= 0.0f) return;
+        if (!(bsdf_pdf_omega > 0.0f) || !point.faces(wi)) continue;
+        const Rgb throughput = paths.throughput[i] * eval(vertex.surface, wi_local) / bsdf_pdf_omega;
+        if (max_component(throughput) <= 0.0f) continue;
+        scattered.rays.push_back({point.ray_origin(wi), wi});
+        scattered.pdf_omega.push_back(bsdf_pdf_omega);
+        paths.vertices[kept] = vertex;
+        paths.throughput[kept] = throughput;
+        paths.sample[kept] = paths.sample[i];
+        paths.shares[kept] = paths.shares[i];
+        ++kept;
+    }
+    paths.keep(kept);
+    return scattered;
+}
 
-        const Ray ray{point.ray_origin(wi), wi};
-        const auto hit = scene.intersect(ray, visible_to_light);
-        const float reached_m = hit ? hit->distance_m : ray.far_m;
-        if (shares) {
-            sample.radiance += throughput * lights_met(scene, strategy, vertex, wi, bsdf_pdf_omega, reached_m);
+/// Follows the rays of a bounce to what they meet: lights, the world, or the paths' next vertices, which are returned.
+Paths next_vertices(const Scene& scene, const RenderSettings& settings, const Paths& paths, const Scattered& scattered,
+                    std::uint32_t bounce, std::span<Sample> samples) {
+    std::vector<std::optional<RayHit>> hits(paths.size());
+    scene.intersect(scattered.rays, visible_to_light, hits);
+    Paths next;
+    next.reserve(paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const Vertex& vertex = paths.vertices[i];
+        const Ray& ray = scattered.rays[i];
+        Rgb throughput = paths.throughput[i];
+        Rgb& radiance = samples[paths.sample[i]].radiance;
+        if (paths.shares[i]) {
+            const float reached_m = hits[i] ? hits[i]->distance_m : ray.far_m;
+            radiance += throughput * lights_met(scene, settings.light_sampling, vertex, ray.direction,
+                                                scattered.pdf_omega[i], reached_m);
         }
-        if (!hit) {
-            sample.radiance += throughput * scene.world();
-            return;
+        if (!hits[i]) {
+            radiance += throughput * scene.world();
+            continue;
         }
         if (bounce >= first_roulette_bounce) {
             const float survival = std::min(max_component(throughput), max_roulette_survival);
             // The lobe's second number is free: the first chose the lobe.
-            if (vertex.sampler.point(vertex.dimensions.lobe()).y >= survival) return;
+            if (vertex.sampler.point(vertex.dimensions.lobe()).y >= survival) continue;
             throughput /= survival;
         }
-        vertex.point = scene.surface_point(ray, *hit);
-        sample.radiance += throughput * vertex.point.material->emission;
-        if (bounce == settings.max_bounces) return;
-        vertex.surface = make_surface(*vertex.point.material, vertex.point.wo_local);
-        vertex.dimensions = Dimensions(bounce + 1);
-        vertex.light_samples = std::min<std::size_t>(scene.lights().size(), 1);
-        Rgb direct(0.0f);
-        std::uint8_t vertex_shares = 0;
-        add_direct_light(scene, strategy, {&vertex, 1}, {&direct, 1}, {&vertex_shares, 1});
-        shares = vertex_shares != 0;
-        sample.radiance += throughput * direct;
+        const SurfacePoint point = scene.surface_point(ray, *hits[i]);
+        radiance += throughput * point.material->emission;
+        if (bounce < settings.max_bounces)
+            next.add(make_vertex(scene, vertex.sampler, point, bounce + 1), throughput, paths.sample[i]);
     }
+    return next;
 }
 
 }  // namespace
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
-    std::vector<std::optional<RayHit>> hits(camera_rays.size());
-    scene.intersect(camera_rays, visible_to_camera, hits);
-    std::vector<Vertex> vertices;
-    std::vector<std::size_t> places;  // of the vertices' samples
-    vertices.reserve(camera_rays.size());
-    places.reserve(camera_rays.size());
-    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
-        Sample& sample = samples[i];
-        sample = {};
-        if (!hits[i]) {
-            if (settings.transparent_film) sample.alpha = 0.0f;
-            if (!settings.transparent_film) sample.radiance = scene.world();
-            continue;
-        }
-        const Vertex vertex{
-            .sampler = samplers[i],
-            .point = scene.surface_point(camera_rays[i], *hits[i]),
-            .surface = make_surface(*vertex.point.material, vertex.point.wo_local),
-            .dimensions = Dimensions(0),
-            .light_samples = std::min(scene.lights().size(), max_light_samples),
-        };
-        const Rgb emission = vertex.point.material->emission;
-        sample.radiance = emission;
-        sample.normal = vertex.point.frame.z;
-        sample.albedo = vertex.surface.diffuse;
-        sample.emission = emission;
-        places.push_back(i);
-        vertices.push_back(vertex);
-    }
-    std::vector<Rgb> direct(vertices.size(), Rgb(0.0f));
-    std::vector<std::uint8_t> shares(vertices.size(), 0);
-    add_direct_light(scene, settings.light_sampling, vertices, direct, shares);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        Sample& sample = samples[places[i]];
-        sample.radiance += direct[i];
-        follow_path(scene, settings, vertices[i], shares[i] != 0, sample);
+    Paths paths = start_paths(scene, settings, camera_rays, samplers, samples);
+    for (std::uint32_t bounce = 0; paths.size() > 0; ++bounce) {
+        add_light(scene, settings, paths, samples);
+        const bool is_last = bounce == settings.max_bounces;
+        const Scattered scattered = scatter(paths, is_last && !scene.has_unsampled_light());
+        paths = next_vertices(scene, settings, paths, scattered, bounce, samples);
     }
 }
 
