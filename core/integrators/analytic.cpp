@@ -76,9 +76,9 @@ float largest_share(const Reflection& reflection, std::span<const float> totals)
 void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                 const SurfaceBatch& batch, std::span<Gathered> gathered) {
     std::vector<LightShading> shadings;
-    shadings.reserve(scene.lights().size());
+    shadings.reserve(scene.lamps().size());
     std::array<float, batch_size> totals{};
-    for (const Light& light : scene.lights()) {
+    for (const Light& light : scene.lamps()) {
         shadings.push_back(shade_light(light, batch, settings));
         const Reflection& reflection = reflection_of(shadings.back());
         for (std::size_t i = 0; i < batch.count; ++i)
@@ -93,7 +93,7 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
         for (std::size_t i = 0; i < batch.count; ++i) {
             if (settings.occlusion == Occlusion::bent_cone) {
                 const auto& [point, surface, bent_cone] = *batch.lanes[i];
-                const SeenShare seen = seen_share(scene.lights()[k], bent_cone, point, surface);
+                const SeenShare seen = seen_share(scene.lamps()[k], bent_cone, point, surface);
                 gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
                                      error_of_bent_cone(reflection.glossy[i], seen.glossy);
                 reflection.diffuse[i] *= seen.diffuse;

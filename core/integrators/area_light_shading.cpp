@@ -10,7 +10,7 @@ namespace {
 AreaOutline<Batch> local_outline(const AreaLight& light, const SurfaceBatch& batch) {
     const auto local = [&](const Vec3b& v) { return batch.frame.to_local(v); };
     return {local(broadcast(light.center) - batch.position), local(broadcast(light.half_u)),
-            local(broadcast(light.half_v)), light.ellipse};
+            local(broadcast(light.half_v)), light.shape == AreaShape::ellipse};
 }
 
 /// One LTC of the table, clipped at the horizon, with Fresnel at the mirror direction.
@@ -21,7 +21,7 @@ LobeIntegral<Batch> integrate_ltc(const SurfaceBatch& batch, const AreaLight& li
         const Vec3f center = point.frame.to_local(light.center - point.position);
         const Vec3f u = point.frame.to_local(light.half_u), v = point.frame.to_local(light.half_v);
         std::vector<Vec3f> outline{center - u - v, center + u - v, center + u + v, center - u + v};
-        if (light.ellipse) {
+        if (light.shape == AreaShape::ellipse) {
             outline.clear();
             for (int k = 0; k < 32; ++k) {
                 const float angle = 2.0f * pi<float> * (static_cast<float>(k) + 0.5f) / 32.0f;

@@ -3,6 +3,7 @@
 namespace pivot {
 
 bool needs_bsdf_samples(const AreaLight& light, const SurfacePoint& point) {
+    if (light.shape == AreaShape::triangle) return true;
     const float reach_m = 1.2f * (length(light.half_u) + length(light.half_v));
     return length_squared(light.center - point.position) < sqr(reach_m) || point.wo_local.z < 0.05f;
 }
@@ -11,9 +12,10 @@ AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point) {
     return {.center = point.frame.to_local(light.center - point.position),
             .half_u = point.frame.to_local(light.half_u),
             .half_v = point.frame.to_local(light.half_v),
-            .normal = point.frame.to_local(light.normal),
+            .normal = point.frame.to_local(normal_towards(light, point.position)),
             .parallelogram_m2 = parallelogram_m2(light),
-            .ellipse = light.ellipse};
+            .ellipse = light.shape == AreaShape::ellipse,
+            .triangle = light.shape == AreaShape::triangle};
 }
 
 JointSurface<float> joint_surface(const Surface& surface) {

@@ -21,16 +21,18 @@
 
 namespace pivot {
 
-/// An area light from a lit point: places are center + x half_u + y half_v, |x| <= 1, |y| <= 1 or within the disk.
+/// An area light from a lit point: places are center + x half_u + y half_v.
 template <class T>
 struct AreaView {
-    Vec3<T> center, half_u, half_v, normal;
+    Vec3<T> center, half_u, half_v;
+    Vec3<T> normal;      ///< of the side towards the point, if that shines
     T parallelogram_m2;  ///< |half_u x half_v|
-    Mask<T> ellipse;
+    Mask<T> ellipse, triangle;
 };
 
 /// Whether samples by area would vary without bound, so that BSDF samples must share: near the light, and at grazing
-/// views, where slopes are far from linear in the place.
+/// views, where slopes are far from linear in the place. And always of a mesh's triangles: their choice among many
+/// knows less of the lobe than the lobe does.
 bool needs_bsdf_samples(const AreaLight& light, const SurfacePoint& point);
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
@@ -97,7 +99,8 @@ T choose_part(const std::array<T, n>& probability, T& u) {
 /// How far the light reaches along half_v at x.
 template <class T>
 T half_height(const AreaView<T>& light, T x) {
-    return select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), T(1));
+    const T of_triangle = select(light.triangle, max(T(0.5f) * (T(1) + x), T(1e-3f)), T(1));
+    return select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), of_triangle);
 }
 
 /// One lobe's cells.
@@ -181,8 +184,11 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
     // Below the horizon there is no lobe to fit: go towards the light's highest place.
     const T rise_u = light.half_u.z, rise_v = light.half_v.z;
     const T shrink = select(light.ellipse, T(1) / sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
-    const T top_x = select(light.ellipse, rise_u * shrink, select(rise_u < T(0), T(-1), T(1)));
-    const T top_y = select(light.ellipse, rise_v * shrink, select(rise_v < T(0), T(-1), T(1)));
+    const auto tip = light.triangle && rise_u + abs(rise_v) < -rise_u;
+    const T end_x = select(tip || (!light.triangle && rise_u < T(0)), T(-1), T(1));
+    const T end_y = select(tip, T(0), select(rise_v < T(0), T(-1), T(1)));
+    const T top_x = select(light.ellipse, rise_u * shrink, end_x);
+    const T top_y = select(light.ellipse, rise_v * shrink, end_y);
     const T top_z = light.center.z + top_x * rise_u + top_y * rise_v;
     const T z = light.center.z + x * rise_u + y * rise_v, fall = max(top_z - z, tiny<T>);
     const T kept = select(z < T(0.05) * top_z, min(max(T(0.95) * top_z / fall, T(0)), T(1)), T(1));

@@ -7,10 +7,6 @@ namespace {
 
 static_assert(RayPacket::width % batch_size == 0);
 
-/// Lights end their shadow rays a little early: their own surface is no occluder, nor should a mesh that touches it
-/// become one by rounding.
-constexpr float shadow_reach = 1.0f - 1e-5f;
-
 /// A vertex's light sample: of which light, chosen how often, as which of the vertex' samples. Never: no sample.
 struct LightPick {
     std::size_t light;
@@ -28,11 +24,11 @@ struct LightPacket {
         for (auto& component : radiance) component.fill(0.0f);
     }
 
-    void set(std::size_t lane, const SurfacePoint& point, const LightPoint& place, const Rgb& added) {
+    void set(std::size_t lane, const SurfacePoint& point, const LightPoint& place, float reach_m, const Rgb& added) {
         const Vec3f origin = point.ray_origin(place.wi);
         rays.origin_x[lane] = origin.x, rays.origin_y[lane] = origin.y, rays.origin_z[lane] = origin.z;
         rays.direction_x[lane] = place.wi.x, rays.direction_y[lane] = place.wi.y, rays.direction_z[lane] = place.wi.z;
-        rays.far_m[lane] = max_component(abs(added)) > 0.0f ? place.distance_m * shadow_reach : 0.0f;
+        rays.far_m[lane] = max_component(abs(added)) > 0.0f ? reach_m : 0.0f;
         for (int k = 0; k < 3; ++k) radiance[static_cast<std::size_t>(k)][lane] = added[k];
     }
 
@@ -46,8 +42,8 @@ struct LightPacket {
             put(v.x, x), put(v.y, y), put(v.z, z);
         };
         const Vec3b added(samples.radiance.x * scale, samples.radiance.y * scale, samples.radiance.z * scale);
-        const Batch far_m = select(max(max(abs(added.x), abs(added.y)), abs(added.z)) > Batch(0.0f),
-                                   samples.distance_m * Batch(shadow_reach), Batch(0.0f));
+        const Batch far_m =
+            select(max(max(abs(added.x), abs(added.y)), abs(added.z)) > Batch(0.0f), samples.reach_m, Batch(0.0f));
         put3(lanes.position + lanes.error_m * lanes.normal_geometric, rays.origin_x, rays.origin_y, rays.origin_z);
         put3(samples.wi, rays.direction_x, rays.direction_y, rays.direction_z);
         put3(added, radiance[0], radiance[1], radiance[2]);
@@ -55,27 +51,53 @@ struct LightPacket {
     }
 };
 
-/// A light sample of one vertex; whether BSDF samples must be traced for this light.
+/// How far a light sample's shadow ray goes.
+float reach_m(const Light& light, const SurfacePoint& point, const LightPoint& place) {
+    const auto* area = std::get_if<AreaLight>(&light);
+    const float error_m = area ? surface_error_m(*area) : 0.0f;
+    if (error_m == 0.0f) return place.distance_m * shadow_reach;
+    return place.distance_m * shadow_reach - (error_m + point.error_m) / std::abs(dot(place.wi, area->normal));
+}
+
+/// A light sample of one vertex; whether BSDF samples must be traced for this lamp.
 bool sample_light_at(const Scene& scene, LightSampling strategy, const Vertex& vertex, const LightPick& pick,
                      std::size_t lane, LightPacket& samples) {
     if (!(pick.expected_samples > 0.0f)) return false;
     const LightSampler light(scene.lights()[pick.light], vertex.point, vertex.surface, strategy);
     const auto place = light.sample(vertex.sampler.point(vertex.dimensions.light_place(pick.place)));
-    const bool shares = light.shares_with_bsdf();
-    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return shares;
+    const bool shares = light.shares_with_bsdf(), is_lamp_shared = shares && pick.light < scene.lamps().size();
+    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return is_lamp_shared;
     const float pdf = pick.expected_samples * place->pdf_omega;
     const Vec3f wi_local = vertex.point.frame.to_local(place->wi);
     const float weight = shares ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
-    samples.set(lane, vertex.point, *place, weight * eval(vertex.surface, wi_local) * place->radiance / pdf);
-    return shares;
+    samples.set(lane, vertex.point, *place, reach_m(scene.lights()[pick.light], vertex.point, *place),
+                weight * eval(vertex.surface, wi_local) * place->radiance / pdf);
+    return is_lamp_shared;
 }
 
 /// Kinds of light as batches tell them apart.
-enum class Kind { none, cap, area, shared_area };
+enum class Kind { none, cap, area };
 
-Kind kind_of(const Light& light, const SurfacePoint& point) {
-    const auto* area = std::get_if<AreaLight>(&light);
-    return !area ? Kind::cap : needs_bsdf_samples(*area, point) ? Kind::shared_area : Kind::area;
+Kind kind_of(const Light& light) { return std::holds_alternative<AreaLight>(light) ? Kind::area : Kind::cap; }
+
+/// The weights of area lights' samples beside BSDF samples, where the light wants these. Whether a lamp does is noted
+/// in shares; BSDF samples that meet emissive meshes count whatever is there.
+Batch weight_beside_bsdf(const Scene& scene, const VertexLanes& lanes, std::span<const Vertex> vertices,
+                         std::span<const LightPick> picks, const Lanes& chosen, const LaneSamples& lit, Batch expected,
+                         std::span<std::uint8_t> shares) {
+    Lanes shared{};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (chosen[i] == 0.0f) continue;
+        const std::size_t light = picks[i].light;
+        if (!needs_bsdf_samples(std::get<AreaLight>(scene.lights()[light]), vertices[i].point)) continue;
+        shared[i] = 1.0f;
+        if (light < scene.lamps().size()) shares[i] = 1;
+    }
+    const BatchMask is_shared = load(shared) > Batch(0.0f);
+    if (!any(is_shared)) return Batch(1.0f);
+    const Batch pdf = expected * lit.pdf_omega, other = lanes.bsdf_pdf_omega(lanes.frame.to_local(lit.wi));
+    // The density of a light seen edge-on is infinite.
+    return select(is_shared, Batch(1.0f) / (Batch(1.0f) + other / pdf), Batch(1.0f));
 }
 
 /// A joint sample by each of a batch of vertices, each of its own light, from lane `first` of the packet on; those
@@ -86,7 +108,7 @@ void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const 
     const Vec2b u = lanes.sampler.point(vertices[0].dimensions.light_place(picks[0].place));
     std::array<Kind, batch_size> kinds{};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (picks[i].expected_samples > 0.0f) kinds[i] = kind_of(scene.lights()[picks[i].light], vertices[i].point);
+        if (picks[i].expected_samples > 0.0f) kinds[i] = kind_of(scene.lights()[picks[i].light]);
     }
     Lanes done{};
     const auto sample_kind = [&](Kind kind, const auto& light_of, const auto& sample_lights) {
@@ -106,7 +128,10 @@ void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const 
             lights.values[i] = light_of(scene.lights()[own(i).light]);
         const LaneSamples lit = sample_lights(lanes, lights, u);
         const BatchMask sampled = lit.valid && load(chosen) > Batch(0.0f);
-        samples.set(first, lanes, lit, sampled, Batch(1.0f) / load(expected));
+        Batch weight = Batch(1.0f) / load(expected);
+        if (kind == Kind::area)
+            weight *= weight_beside_bsdf(scene, lanes, vertices, picks, chosen, lit, load(expected), shares);
+        samples.set(first, lanes, lit, sampled, weight);
         done = store(select(sampled, Batch(1.0f), load(done)));
     };
     sample_kind(

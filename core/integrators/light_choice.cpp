@@ -81,7 +81,8 @@ LightProxies::Values light_importance(const SurfacePoint& point, const Surface& 
         cap.versine = select(is_sun, sun_versine, cap.versine);
 
         // A flat light is seen at its slant, a spot within its cone.
-        const Batch cos_light = -dot(to_center, normal) / max(length(to_center), tiny<Batch>);
+        const Batch facing = -dot(to_center, normal) / max(length(to_center), tiny<Batch>);
+        const Batch cos_light = select(load_at(proxies.two_sided, first) > zero, abs(facing), facing);
         const Batch cos_cone = load_at(proxies.cos_cone, first);
         const Batch lit = max((cos_light - cos_cone) / (one - cos_cone), load_at(proxies.least_lit, first));
 

@@ -8,22 +8,38 @@ namespace {
 constexpr std::uint32_t first_roulette_bounce = 3;
 constexpr float max_roulette_survival = 0.95f;
 
-/// What a BSDF sample that reaches distance_m meets of the lights, weighted against their own samples.
+/// The weight of a BSDF sample that meets a light, beside the light's own samples.
+float bsdf_weight(const Scene& scene, LightSampling strategy, const Vertex& vertex, std::size_t index,
+                  const LightPoint& place, float bsdf_pdf_omega) {
+    const LightSampler light(scene.lights()[index], vertex.point, vertex.surface, strategy);
+    if (!light.shares_with_bsdf()) return 0.0f;
+    const float light_pdf_omega = light.pdf_omega(place);  // 0: BSDF samples are alone
+    const float expected = light_pdf_omega > 0.0f ? expected_samples(scene, vertex, index) : 0.0f;
+    return balance(bsdf_pdf_omega, expected * light_pdf_omega);
+}
+
+/// What a BSDF sample that reaches distance_m meets of the lamps.
 Rgb lights_met(const Scene& scene, LightSampling strategy, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
                float distance_m) {
-    const auto& lights = scene.lights();
+    const std::span<const Light> lamps = scene.lamps();
     Rgb radiance(0.0f);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const auto place = intersect_light(lights[i], vertex.point.position, wi);
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        const auto place = intersect_light(lamps[i], vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        const LightSampler light(lights[i], vertex.point, vertex.surface, strategy);
-        if (!light.shares_with_bsdf()) continue;
-        const float light_pdf_omega = light.pdf_omega(*place);  // 0: BSDF samples are alone
-        const float expected = light_pdf_omega > 0.0f ? expected_samples(scene, vertex, i) : 0.0f;
-        radiance += place->radiance * balance(bsdf_pdf_omega, expected * light_pdf_omega);
+        radiance += place->radiance * bsdf_weight(scene, strategy, vertex, i, *place, bsdf_pdf_omega);
     }
     return radiance;
+}
+
+/// The emission that a BSDF sample meets on a surface, weighted if its triangle is a light that is sampled.
+Rgb emission_met(const Scene& scene, LightSampling strategy, const Vertex& vertex, const Vec3f& wi,
+                 float bsdf_pdf_omega, const RayHit& hit, const Rgb& emission) {
+    const auto index = scene.light_of(hit);
+    if (!index) return emission;
+    const auto place = light_point(std::get<AreaLight>(scene.lights()[*index]), wi, hit.distance_m);
+    if (!place) return emission;
+    return emission * bsdf_weight(scene, strategy, vertex, *index, *place, bsdf_pdf_omega);
 }
 
 /// Paths that have reached the same bounce: their vertices side by side, for batches and packets.
@@ -157,7 +173,9 @@ Paths next_vertices(const Scene& scene, const RenderSettings& settings, const Pa
             throughput /= survival;
         }
         const SurfacePoint point = scene.surface_point(ray, *hits[i]);
-        radiance += throughput * point.material->emission;
+        if (point.material->is_emissive())
+            radiance += throughput * emission_met(scene, settings.light_sampling, vertex, ray.direction,
+                                                  scattered.pdf_omega[i], *hits[i], point.material->emission);
         if (bounce < settings.max_bounces)
             next.add(make_vertex(scene, vertex.sampler, point, bounce + 1), throughput, paths.sample[i]);
     }

@@ -36,7 +36,7 @@ Cap<float> cap_like(const AreaLight& light, const Vec3f& position) {
     const std::array<Vec3f, 4> corners{
         normalize(center - light.half_u - light.half_v), normalize(center + light.half_u - light.half_v),
         normalize(center + light.half_u + light.half_v), normalize(center - light.half_u + light.half_v)};
-    const float covered = abs(solid_angle<float>(corners)) * (light.ellipse ? 0.25f * pi<float> : 1.0f);
+    const float covered = abs(solid_angle<float>(corners)) * 0.25f * relative_area(light.shape);
     return {normalize(center), covered / (2.0f * pi<float>)};
 }
 

@@ -83,10 +83,21 @@ VertexLanes vertex_lanes(std::span<const Vertex> vertices) {
                      .diffuse = mean(lanes.diffuse),
                      .fresnel_f0 = mean(lanes.schlick_f0 + lanes.dielectric_f0),
                      .fresnel_f90 = mean(lanes.schlick_f90 + lanes.dielectric_f90)};
+    lanes.glossy_probability = number(surface.glossy_probability);
     std::array<Sampler, batch_size> samplers;
     for (std::size_t i = 0; i < batch_size; ++i) samplers[i] = lane(i).sampler;
     lanes.sampler = sampler_lanes(samplers);
     return lanes;
+}
+
+Batch VertexLanes::bsdf_pdf_omega(const Vec3b& wi_local) const {
+    const Batch zero(0.0f), cosine = max(wi_local.z, zero);
+    Batch pdf = (Batch(1.0f) - glossy_probability) * cosine * Batch(1.0f / pi<float>);
+    if (any(glossy_probability > zero)) {
+        const Batch glossy = ggx_pdf_omega(surface.wo_local, wi_local, surface.alpha, surface.alpha);
+        pdf += select(glossy_probability > zero && wi_local.z > zero, glossy_probability * glossy, zero);
+    }
+    return pdf;
 }
 
 LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const Light*>& lights, const Vec2b& u) {
@@ -119,32 +130,45 @@ LaneSamples sample_cap_lights(const VertexLanes& lanes, const LaneValues<const L
     if (any(is_disk)) distance = select(is_disk, distance_to_facing_disk(to_center, wi), distance);
     return {.radiance = times(reflected * vector(&CapLight::radiance), select(faces, falloff, Batch(0.0f))),
             .wi = wi,
-            .distance_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance),
-            .valid = s.valid};
+            .reach_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance * Batch(shadow_reach)),
+            .valid = s.valid,
+            .pdf_omega = Batch(0.0f)};
 }
 
 LaneSamples sample_area_lights(const VertexLanes& lanes, const LaneValues<const AreaLight*>& lights, const Vec2b& u) {
     const auto vector = [&](auto field) { return lights.vector([&](const AreaLight* l) { return l->*field; }); };
-    const Batch ellipse = lights.number([](const AreaLight* l) { return l->ellipse ? 1.0f : 0.0f; });
-    const AreaView<Batch> view{
+    const Batch shape = lights.number([](const AreaLight* l) { return static_cast<float>(l->shape); });
+    const auto is_shape = [&](AreaShape s) { return shape == Batch(static_cast<float>(s)); };
+    AreaView<Batch> view{
         .center = lanes.frame.to_local(vector(&AreaLight::center) - lanes.position),
         .half_u = lanes.frame.to_local(vector(&AreaLight::half_u)),
         .half_v = lanes.frame.to_local(vector(&AreaLight::half_v)),
         .normal = lanes.frame.to_local(vector(&AreaLight::normal)),
         .parallelogram_m2 = lights.number([](const AreaLight* l) { return parallelogram_m2(*l); }),
-        .ellipse = ellipse > Batch(0.5f),
+        .ellipse = is_shape(AreaShape::ellipse),
+        .triangle = is_shape(AreaShape::triangle),
     };
-    const Batch zero(0.0f);
-    const BatchMask reached = dot(view.center, view.normal) < zero;
-    LaneSamples samples{.radiance = Vec3b(zero), .wi = lanes.frame.z, .distance_m = zero, .valid = zero == zero};
+    const Batch zero(0.0f), two_sided = lights.number([](const AreaLight*l) { return l->is_two_sided ? 1.0f : 0.0f; });
+    const Batch facing = dot(view.center, view.normal);
+    view.normal = select(two_sided > zero && facing > zero, -view.normal, view.normal);
+    const BatchMask reached = facing < zero || (two_sided > zero && facing > zero);
+    LaneSamples samples{
+        .radiance = Vec3b(zero), .wi = lanes.frame.z, .reach_m = zero, .valid = zero == zero, .pdf_omega = Batch(1.0f)};
     if (!any(reached)) return samples;
     const AreaSampler<Batch> sampler(lanes.surface, view);
     const Vec2b place = sampler.sample(u);
     const auto seen = sampler.see(place.x, place.y);
     samples.wi = lanes.frame.to_world(seen.wi);
-    samples.distance_m = seen.distance_m;
+    samples.reach_m = seen.distance_m * Batch(shadow_reach);
+    if (const Batch error_m = lights.number([](const AreaLight* l) { return surface_error_m(*l); });
+        any(error_m > zero)) {
+        const Batch cosine = max(-dot(seen.wi, view.normal), tiny<Batch>);
+        samples.reach_m -= select(error_m > zero, (error_m + lanes.error_m) / cosine, zero);
+    }
     const BatchMask lit = reached && seen.wi.z > zero && dot(samples.wi, lanes.normal_geometric) > zero;
-    const Batch weight = select(lit, seen.omega_per_xy / max(sampler.pdf(place), tiny<Batch>), zero);
+    const Batch pdf_xy = max(sampler.pdf(place), tiny<Batch>);
+    const Batch weight = select(lit, seen.omega_per_xy / pdf_xy, zero);
+    samples.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
     const Vec3b& wo = lanes.surface.wo_local;
     const Batch alpha = lanes.surface.alpha, cos_i = max(seen.wi.z, Batch(1e-6f));
     Vec3b reflected = times(lanes.diffuse, cos_i * Batch(1.0f / pi<float>));

@@ -35,7 +35,11 @@ struct VertexLanes {
     Vec3b diffuse, schlick_f0, schlick_f90, dielectric_f0, dielectric_f90;
     Batch ior;
     bool has_dielectric;  ///< in any lane
+    Batch glossy_probability;
     SamplerOf<WordBatch> sampler;
+
+    /// Density of the surfaces' own samples.
+    Batch bsdf_pdf_omega(const Vec3b& wi_local) const;
 
     /// The lobe's Fresnel reflectance for cos_oh of each lane.
     Vec3b fresnel(Batch cos_oh) const {
@@ -53,8 +57,9 @@ VertexLanes vertex_lanes(std::span<const Vertex> vertices);
 struct LaneSamples {
     Vec3b radiance;  ///< 0: nothing
     Vec3b wi;
-    Batch distance_m;
+    Batch reach_m;    ///< of its shadow ray
     BatchMask valid;  ///< elsewhere the lane must be sampled otherwise
+    Batch pdf_omega;  ///< of area lights
 };
 
 /// Of cap-shaped lights, one a lane; u: of each lane.

@@ -20,27 +20,20 @@ bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y)
 
 bool is_unit(const Vec3f& v) { return std::abs(length_squared(v) - 1.0f) < 1e-3f; }
 
-std::optional<LightPoint> area_light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
-    const float cos_light = -dot(wi, light.normal);
-    if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
-    return LightPoint{wi, distance_m, light.radiance, sqr(distance_m) / (cos_light * light.area_m2)};
-}
-
 std::optional<LightPoint> sample_area(const AreaLight& light, const Vec3f& point, const Vec2f& u) {
     const Vec3f d = place_on(light, u) - point;
     const float distance_m = length(d);
     if (!(distance_m > 0.0f)) return std::nullopt;
-    return area_light_point(light, d / distance_m, distance_m);
+    return light_point(light, d / distance_m, distance_m);
 }
 
 std::optional<LightPoint> intersect_area(const AreaLight& light, const Vec3f& point, const Vec3f& wi) {
-    const float cos_light = -dot(wi, light.normal);
+    const Vec3f normal = normal_towards(light, point);
+    const float cos_light = -dot(wi, normal);
     if (cos_light <= 0.0f) return std::nullopt;
-    const float distance_m = dot(point - light.center, light.normal) / cos_light;
-    const Vec2f at = area_coordinates(light, point + distance_m * wi);
-    if (light.ellipse ? at.x * at.x + at.y * at.y > 1.0f : std::max(std::abs(at.x), std::abs(at.y)) > 1.0f)
-        return std::nullopt;
-    return area_light_point(light, wi, distance_m);
+    const float distance_m = dot(point - light.center, normal) / cos_light;
+    if (!is_on_light(light, area_coordinates(light, point + distance_m * wi))) return std::nullopt;
+    return light_point(light, wi, distance_m);
 }
 
 }  // namespace
@@ -78,8 +71,38 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
     const Vec3f normal = cross(half_u, half_v);
     const float quarter_area = length(normal);
     require(quarter_area > 0.0f, "half_u and half_v must span an area");
-    return {center,  half_u,  half_v, normal / quarter_area, quarter_area * (ellipse ? pi<float> : 4.0f),
-            ellipse, radiance};
+    const AreaShape shape = ellipse ? AreaShape::ellipse : AreaShape::parallelogram;
+    return {center, half_u, half_v, normal / quarter_area, quarter_area * relative_area(shape), shape, false, radiance};
+}
+
+std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners, const Rgb& radiance) {
+    const auto& [a, b, c] = corners;
+    const Vec3f middle = 0.5f * (b + c), half_u = 0.5f * (middle - a), half_v = 0.5f * (c - b);
+    const Vec3f normal = cross(half_u, half_v);
+    const float half_area = length(normal);
+    if (!(half_area > 0.0f)) return std::nullopt;
+    constexpr AreaShape shape = AreaShape::triangle;
+    return AreaLight{0.5f * (a + middle),
+                     half_u,
+                     half_v,
+                     normal / half_area,
+                     half_area * relative_area(shape),
+                     shape,
+                     true,
+                     radiance};
+}
+
+bool is_on_light(const AreaLight& light, const Vec2f& at) {
+    const float x = std::abs(at.x), y = std::abs(at.y);
+    switch (light.shape) {
+        case AreaShape::parallelogram:
+            return std::max(x, y) <= 1.0f;
+        case AreaShape::ellipse:
+            return x * x + y * y <= 1.0f;
+        case AreaShape::triangle:
+            return at.x <= 1.0f && 2.0f * y <= 1.0f + at.x;
+    }
+    return false;
 }
 
 Vec2f area_coordinates(const AreaLight& light, const Vec3f& place) {
@@ -96,7 +119,9 @@ const SphereLight* sphere_of(const Light& light) {
 }
 
 Vec3f place_on(const AreaLight& light, const Vec2f& u) {
-    const Vec2f place = light.ellipse ? sample_disk(u) : 2.0f * u - 1.0f;
+    Vec2f place = 2.0f * u - 1.0f;
+    if (light.shape == AreaShape::ellipse) place = sample_disk(u);
+    if (light.shape == AreaShape::triangle) place = {2.0f * sqrt(u.x) - 1.0f, place.y * sqrt(u.x)};
     return light.center + place.x * light.half_u + place.y * light.half_v;
 }
 
@@ -104,6 +129,12 @@ std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
     if (const auto* sun = std::get_if<SunLight>(&light)) return sun->cap;
     if (const SphereLight* sphere = sphere_of(light)) return cap_from(*sphere, point);
     return std::nullopt;
+}
+
+std::optional<LightPoint> light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
+    const float cosine = dot(wi, light.normal), cos_light = light.is_two_sided ? std::abs(cosine) : -cosine;
+    if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
+    return LightPoint{wi, distance_m, light.radiance, sqr(distance_m) / (cos_light * light.area_m2)};
 }
 
 std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u) {

@@ -2,6 +2,8 @@
 // World space; wi points from the lit point towards the light.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -33,13 +35,18 @@ struct SunLight {
     Rgb radiance;
 };
 
-/// A parallelogram or the ellipse in it, shining from one side.
+/// Which places center + x half_u + y half_v of an area light shine: |x| <= 1 and |y| at most 1, sqrt(1 - x^2) or
+/// (1 + x) / 2.
+enum class AreaShape : std::uint8_t { parallelogram, ellipse, triangle };
+
+/// A flat light. A triangle of a mesh shines from both sides, others from one.
 struct AreaLight {
     Vec3f center;
     Vec3f half_u, half_v;
     Vec3f normal;  ///< the side that shines, unit
     float area_m2;
-    bool ellipse;
+    AreaShape shape;
+    bool is_two_sided;
     Rgb radiance;
 };
 
@@ -57,8 +64,10 @@ SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb&
 /// half_u, half_v: from the centre to the middle of two sides. Shines towards cross(half_u, half_v).
 AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
                           bool ellipse);
+/// Of a mesh, with these corners. Nothing where they span no area.
+std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners, const Rgb& radiance);
 
-/// A place in the light's plane along half_u and half_v: within [-1, 1]^2 or the unit disk on the light.
+/// A place in the light's plane along half_u and half_v.
 Vec2f area_coordinates(const AreaLight& light, const Vec3f& place);
 
 /// The range of cosines over which a spot falls off.
@@ -95,8 +104,39 @@ T distance_to_sphere(const Vec3<T>& to_center, T radius, const Vec3<T>& wi) {
     return max(distance, T(0));  // a receiver that touches the sphere
 }
 
+/// Area of a shape over |half_u x half_v|.
+constexpr float relative_area(AreaShape shape) {
+    switch (shape) {
+        case AreaShape::parallelogram:
+            return 4.0f;
+        case AreaShape::ellipse:
+            return pi<float>;
+        case AreaShape::triangle:
+            return 2.0f;
+    }
+    return 0.0f;
+}
+
 /// |half_u x half_v|.
-inline float parallelogram_m2(const AreaLight& light) { return light.area_m2 / (light.ellipse ? pi<float> : 4.0f); }
+inline float parallelogram_m2(const AreaLight& light) { return light.area_m2 / relative_area(light.shape); }
+
+/// Lamps end their shadow rays a little early: nor should a mesh that touches one become an occluder by rounding.
+inline constexpr float shadow_reach = 1.0f - 1e-5f;
+
+/// Bound of the rounding error of where rays meet a mesh's triangle, along its normal. 0 of lamps, which rays do not
+/// see.
+inline float surface_error_m(const AreaLight& light) {
+    if (light.shape != AreaShape::triangle) return 0.0f;
+    constexpr float error_per_magnitude = 0x1p-19f;
+    return error_per_magnitude * max_component(abs(light.center) + abs(light.half_u) + abs(light.half_v));
+}
+
+/// The side that a point sees of the light, unit.
+inline Vec3f normal_towards(const AreaLight& light, const Vec3f& point) {
+    return light.is_two_sided && dot(point - light.center, light.normal) < 0.0f ? -light.normal : light.normal;
+}
+
+bool is_on_light(const AreaLight& light, const Vec2f& coordinates);
 
 /// The sphere of a sphere light or a spot; nothing for others.
 const SphereLight* sphere_of(const Light& light);
@@ -114,6 +154,9 @@ struct LightPoint {
     Rgb radiance;
     float pdf_omega;  ///< of sample_light
 };
+
+/// The place that wi meets on an area light this far off. Nothing where it meets a side that does not shine.
+std::optional<LightPoint> light_point(const AreaLight& light, const Vec3f& wi, float distance_m);
 
 /// Uniform over the cap, or over the area for an area light. Nothing where the light does not reach the point.
 std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u);

@@ -31,7 +31,7 @@ void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
         proxies.set_sphere(child, sun->cap.axis, 0.0f, mean_component(abs(sun->radiance)));
         proxies.sun_versine[child] = sun->cap.versine;
     } else if (const auto* area = std::get_if<AreaLight>(&light)) {
-        proxies.set_flat(child, area->center, area->area_m2, area->normal, mean_component(abs(area->radiance)));
+        proxies.set_flat(child, *area);
     } else {
         const SphereLight& sphere = *sphere_of(light);
         proxies.set_sphere(child, sphere.center, sphere.radius_m, mean_component(abs(sphere.radiance)));
@@ -77,11 +77,11 @@ void LightProxies::set_sphere(std::size_t child, const Vec3f& center, float radi
     least_lit[child] = 1.0f;
 }
 
-void LightProxies::set_flat(std::size_t child, const Vec3f& center, float area_m2, const Vec3f& normal,
-                            float mean_radiance) {
-    set_sphere(child, center, sqrt(area_m2 / pi<float>), mean_radiance);
-    normal_x[child] = normal.x, normal_y[child] = normal.y, normal_z[child] = normal.z;
+void LightProxies::set_flat(std::size_t child, const AreaLight& light) {
+    set_sphere(child, light.center, sqrt(light.area_m2 / pi<float>), mean_component(abs(light.radiance)));
+    normal_x[child] = light.normal.x, normal_y[child] = light.normal.y, normal_z[child] = light.normal.z;
     least_lit[child] = 0.0f;
+    two_sided[child] = light.is_two_sided ? 1.0f : 0.0f;
 }
 
 LightTree::LightTree(const std::vector<Light>& lights) : leaves_(lights.size()) {

@@ -23,10 +23,11 @@ struct LightProxies {
     Values normal_x{}, normal_y{}, normal_z{};  ///< where a flat light or a spot shines; else 0
     Values cos_cone{};                          ///< of a spot's half-angle; 0 of a flat light
     Values least_lit{};                         ///< the falloff towards any point is at least this
+    Values two_sided{};                         ///< 1 of a flat light that shines from both sides
     Values sun_versine{};                       ///< above 0: this is a sun
 
     void set_sphere(std::size_t child, const Vec3f& center, float radius, float mean_radiance);
-    void set_flat(std::size_t child, const Vec3f& center, float area_m2, const Vec3f& normal, float mean_radiance);
+    void set_flat(std::size_t child, const AreaLight& light);
 };
 
 class LightTree {

@@ -48,6 +48,8 @@ void require_valid(const std::string& name, const Material& material) {
     }
 }
 
+constexpr std::uint32_t no_light = ~0u;
+
 /// The value an id stands for, or an error that names what was asked for.
 template <class Items>
 auto& at(Items& items, std::uint32_t id, const char* what) {
@@ -181,20 +183,52 @@ void Scene::commit() {
     for (const auto& light : lights_) {
         if (light) active_lights_.push_back(light->light);
     }
-    light_tree_ = LightTree(active_lights_);
+    lamp_count_ = active_lights_.size();
     has_unsampled_light_ = has_world();
-    for (const auto& instance : instances_) {
-        if (!instance) continue;
-        for (const std::uint32_t material : instance->materials) {
-            has_unsampled_light_ = has_unsampled_light_ || materials_[material].is_emissive();
-        }
+    triangle_lights_.assign(instances_.size(), {});
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (!instances_[i]) continue;
+        const auto& materials = instances_[i]->materials;
+        const auto is_emissive = [&](std::uint32_t material) { return materials_[material].is_emissive(); };
+        if (std::none_of(materials.begin(), materials.end(), is_emissive)) continue;
+        has_unsampled_light_ = true;
+        add_triangle_lights(*instances_[i], triangle_lights_[i]);
     }
+    light_tree_ = LightTree(active_lights_);
+}
+
+std::uint32_t Scene::material_of(const Instance& instance, std::uint32_t triangle) const {
+    const Mesh& mesh = *meshes_[instance.mesh];
+    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[triangle];
+    return instance.materials[std::min(slot, instance.materials.size() - 1)];
+}
+
+void Scene::add_triangle_lights(const Instance& instance, std::vector<std::uint32_t>& light_of_triangle) {
+    if ((instance.visibility & visible_to_light) == 0) return;
+    const Mesh& mesh = *meshes_[instance.mesh];
+    light_of_triangle.assign(mesh.triangles.size(), no_light);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Material& material = materials_[material_of(instance, i)];
+        if (!material.is_emissive()) continue;
+        const Triangle& t = mesh.triangles[i];
+        const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
+        const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, material.emission);
+        if (!light) continue;
+        light_of_triangle[i] = static_cast<std::uint32_t>(active_lights_.size());
+        active_lights_.push_back(*light);
+    }
+}
+
+std::optional<std::size_t> Scene::light_of(const RayHit& hit) const {
+    const auto& lights = triangle_lights_[hit.instance];
+    if (lights.empty() || lights[hit.triangle] == no_light) return std::nullopt;
+    return lights[hit.triangle];
 }
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     if (!bent_cones_.empty()) return;
     LightReach reach{.positions = {}, .is_infinite = has_world()};
-    for (const Light& light : active_lights_) {
+    for (const Light& light : lamps()) {
         if (const auto* sphere = std::get_if<SphereLight>(&light)) reach.positions.push_back(sphere->center);
         if (const auto* spot = std::get_if<SpotLight>(&light)) reach.positions.push_back(spot->sphere.center);
         if (const auto* area = std::get_if<AreaLight>(&light)) reach.positions.push_back(area->center);
@@ -257,8 +291,6 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
         normal_geometric = -normal_geometric;
         normal_shading = -normal_shading;
     }
-    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[hit.triangle];
-    const std::uint32_t material = instance.materials[std::min(slot, instance.materials.size() - 1)];
     const Frame<float> frame = frame_from_z(bend_towards(normal_shading, wo));
     return {.position = position,
             .normal_geometric = normal_geometric,
@@ -266,7 +298,7 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
             .error_m = error_per_magnitude * max_component(magnitude),
             .is_front = is_front,
             .instance = hit.instance,
-            .material = &materials_[material],
+            .material = &materials_[material_of(instance, hit.triangle)],
             .wo_local = frame.to_local(wo)};
 }
 

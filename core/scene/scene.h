@@ -54,8 +54,12 @@ class Scene {
     const Camera& camera() const { return camera_; }
     const Rgb& world() const { return world_; }
     bool has_world() const { return max_component(abs(world_)) > 0.0f; }
-    /// Every light there is, in the order they were added.
-    const std::vector<Light>& lights() const { return active_lights_; }
+    /// Every light there is: those that were added, in that order, then the emissive triangles.
+    std::span<const Light> lights() const { return active_lights_; }
+    /// Those that were added.
+    std::span<const Light> lamps() const { return lights().first(lamp_count_); }
+    /// The light that a triangle is; nothing where it does not shine or is too small to be sampled.
+    std::optional<std::size_t> light_of(const RayHit& hit) const;
     const LightTree& light_tree() const { return light_tree_; }
     /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
     bool has_unsampled_light() const { return has_unsampled_light_; }
@@ -80,12 +84,16 @@ class Scene {
 
    private:
     void require_editable() const;
+    void add_triangle_lights(const Instance& instance, std::vector<std::uint32_t>& light_of_triangle);
+    std::uint32_t material_of(const Instance& instance, std::uint32_t triangle) const;
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
     std::vector<Material> materials_;
     std::vector<std::optional<Instance>> instances_;
     std::vector<std::optional<NamedLight>> lights_;
     std::vector<Light> active_lights_;
+    std::size_t lamp_count_ = 0;
+    std::vector<std::vector<std::uint32_t>> triangle_lights_;  ///< by instance and triangle; empty: none shines
     LightTree light_tree_;
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     Rgb world_{0.0f};
