@@ -46,6 +46,10 @@ void require_valid(const std::string& name, const Material& material) {
         !(material.conductor_weight >= 0.0f)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
+    if (material.alpha < 0.0f || material.alpha > 1.0f)
+        throw std::invalid_argument("material '" + name + "': alpha must be in [0, 1]");
+    if (material.dielectric_ior < 1.0f)
+        throw std::invalid_argument("material '" + name + "': dielectric_ior must be at least 1");
 }
 
 /// The value an id stands for, or an error that names what was asked for.
