@@ -34,20 +34,24 @@ struct Pixel {
     Sample sum{.alpha = 0.0f};
     CenterSample center;
     std::uint32_t count = 0;
+
+    /// What a sum is multiplied by for its mean; 0 without samples.
+    float per_sample() const { return count > 0 ? 1.0f / static_cast<float>(count) : 0.0f; }
 };
 
 struct Tile {
     int x0, y0, x1, y1;
 };
 
-/// A pass by Blender's name, with its channels.
-struct PassInfo {
+/// A pass by Blender's name, its channels, and how a pixel writes them.
+struct Pass {
     std::string_view name;
     int channels;
+    void (*write)(const Pixel& pixel, float* out);
 };
 
-inline constexpr PassInfo passes[] = {{"Combined", 4}, {"Depth", 1}, {"Normal", 3}, {"Position", 3},
-                                      {"DiffCol", 3},  {"Emit", 3},  {"Method", 3}, {"Error", 1}};
+/// Throws std::invalid_argument, which lists the passes there are.
+const Pass& find_pass(std::string_view name);
 
 class Film {
    public:
@@ -60,9 +64,8 @@ class Film {
     void load(const Tile& tile, std::vector<Pixel>& pixels) const;
     void store(const Tile& tile, const std::vector<Pixel>& pixels);
 
-    /// A pass as width x height x channels, bottom row first. Throws std::invalid_argument for an unknown name.
-    std::vector<float> read(std::string_view pass) const;
-    static int channels(std::string_view pass);
+    /// A pass as height x width x channels, bottom row first.
+    std::vector<float> read(const Pass& pass) const;
 
    private:
     Pixel* row(int x, int y) {
