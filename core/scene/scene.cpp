@@ -1,5 +1,6 @@
 #include "core/scene/scene.h"
 
+#include <chrono>
 #include <stdexcept>
 
 namespace pivot {
@@ -77,12 +78,19 @@ Vec3f bend_towards(const Vec3f& normal, const Vec3f& wo) {
 
 }  // namespace
 
-void Scene::require_editable() const {
+void Scene::begin_edit() {
     if (holders_ > 0) throw std::logic_error("the scene is being rendered: wait for the session to end, then edit it");
+    is_committed_ = false;
+}
+
+std::optional<Light>& Scene::light_at(std::uint32_t id) {
+    NamedLight& named = at(lights_, id, "light");
+    if (!named.light) throw std::invalid_argument("light '" + named.name + "' was removed");
+    return named.light;
 }
 
 std::uint32_t Scene::add_mesh(Mesh mesh) {
-    require_editable();
+    begin_edit();
     require_valid(mesh);
     const auto id = static_cast<std::uint32_t>(meshes_.size());
     meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
@@ -91,14 +99,14 @@ std::uint32_t Scene::add_mesh(Mesh mesh) {
 }
 
 std::uint32_t Scene::add_material(const std::string& name, const Material& material) {
-    require_editable();
+    begin_edit();
     require_valid(name, material);
     materials_.push_back(material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
 }
 
 std::uint32_t Scene::add_instance(Instance instance) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     require_finite(instance.world_from_object, instance.name);
     at(meshes_, instance.mesh, "mesh");
@@ -112,26 +120,26 @@ std::uint32_t Scene::add_instance(Instance instance) {
 }
 
 std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     lights_.push_back(NamedLight{name, light});
     return static_cast<std::uint32_t>(lights_.size() - 1);
 }
 
 void Scene::set_material(std::uint32_t id, const Material& material) {
-    require_editable();
+    begin_edit();
     require_valid(std::to_string(id), material);
     at(materials_, id, "material") = material;
 }
 
 void Scene::set_light(std::uint32_t id, const Light& light) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
-    at_present(lights_, id, "light").light = light;
+    light_at(id) = light;
 }
 
 void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from_object) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     Instance& instance = at_present(instances_, id, "instance");
     require_finite(world_from_object, instance.name);
@@ -141,7 +149,7 @@ void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from
 }
 
 void Scene::remove_instance(std::uint32_t id) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     at_present(instances_, id, "instance");
     instances_[id].reset();
@@ -149,21 +157,20 @@ void Scene::remove_instance(std::uint32_t id) {
 }
 
 void Scene::remove_light(std::uint32_t id) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
-    at_present(lights_, id, "light");
-    lights_[id].reset();
+    light_at(id).reset();
 }
 
 void Scene::set_world(const Rgb& radiance) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
     world_ = radiance;
 }
 
 void Scene::set_camera(const Camera& camera) {
-    require_editable();
+    begin_edit();
     require_finite(camera.world_from_camera, "camera");
     const Window& w = camera.window;
     if (camera.width < 1 || camera.height < 1)
@@ -179,11 +186,13 @@ void Scene::set_camera(const Camera& camera) {
 }
 
 void Scene::commit() {
+    const std::lock_guard lock(committing_);
+    if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     ray_tracer_.commit();
     active_lights_.clear();
-    for (const auto& light : lights_) {
-        if (light) active_lights_.push_back(light->light);
+    for (const NamedLight& named : lights_) {
+        if (named.light) active_lights_.push_back(*named.light);
     }
     light_tree_ = LightTree(active_lights_);
     has_unsampled_light_ = max_component(world_) > 0.0f;
@@ -193,9 +202,14 @@ void Scene::commit() {
             has_unsampled_light_ = has_unsampled_light_ || materials_[material].is_emissive();
         }
     }
+    is_committed_ = true;
 }
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
+    std::unique_lock lock(tracing_bent_cones_, std::defer_lock);
+    while (!lock.try_lock_for(std::chrono::milliseconds(10))) {
+        if (should_stop()) return;
+    }
     if (!bent_cones_.empty()) return;
     LightReach reach{.positions = {}, .is_infinite = max_component(world_) > 0.0f};
     for (const Light& light : active_lights_) {
@@ -269,7 +283,6 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
             .frame = frame,
             .error_m = error_per_magnitude * max_component(magnitude),
             .is_front = is_front,
-            .instance = hit.instance,
             .material = &materials_[material],
             .wo_local = frame.to_local(wo)};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Instance {
 
 struct NamedLight {
     std::string name;
-    Light light;
+    std::optional<Light> light;  ///< none: removed
 };
 
 class Scene {
@@ -41,13 +42,14 @@ class Scene {
     void set_world(const Rgb& radiance);
     void set_camera(const Camera& camera);
 
-    /// Makes the scene ready for rays. Throws std::invalid_argument without a camera.
+    /// Makes the scene ready for rays after edits. Of several renders that start together one does it, the others wait.
+    /// Throws std::invalid_argument without a camera.
     void commit();
-    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(). None are there
-    /// once should_stop has returned true.
+    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(), and shared as it
+    /// is. None are there once should_stop has returned true.
     void trace_bent_cones(const std::function<bool()>& should_stop);
 
-    /// While a render holds the scene, every edit throws std::logic_error.
+    /// While a render holds the scene, every edit throws std::logic_error. Renders that hold it may share it.
     void hold() { ++holders_; }
     void release() { --holders_; }
 
@@ -78,12 +80,14 @@ class Scene {
     }
 
    private:
-    void require_editable() const;
+    /// Throws std::logic_error while the scene is held.
+    void begin_edit();
+    std::optional<Light>& light_at(std::uint32_t id);
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
     std::vector<Material> materials_;
     std::vector<std::optional<Instance>> instances_;
-    std::vector<std::optional<NamedLight>> lights_;
+    std::vector<NamedLight> lights_;
     std::vector<Light> active_lights_;
     LightTree light_tree_;
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
@@ -92,6 +96,9 @@ class Scene {
     bool has_unsampled_light_ = false;
     RayTracer ray_tracer_;
     std::atomic<int> holders_{0};
+    std::mutex committing_;
+    bool is_committed_ = false;
+    std::timed_mutex tracing_bent_cones_;
 };
 
 }  // namespace pivot
