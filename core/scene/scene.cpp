@@ -1,7 +1,7 @@
 #include "core/scene/scene.h"
 
-#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 namespace pivot {
 namespace {
@@ -207,8 +207,9 @@ void Scene::commit() {
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     std::unique_lock lock(tracing_bent_cones_, std::defer_lock);
-    while (!lock.try_lock_for(std::chrono::milliseconds(10))) {
+    while (!lock.try_lock()) {
         if (should_stop()) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     if (!bent_cones_.empty()) return;
     LightReach reach{.positions = {}, .is_infinite = max_component(world_) > 0.0f};

@@ -96,9 +96,8 @@ class Scene {
     bool has_unsampled_light_ = false;
     RayTracer ray_tracer_;
     std::atomic<int> holders_{0};
-    std::mutex committing_;
+    std::mutex committing_, tracing_bent_cones_;
     bool is_committed_ = false;
-    std::timed_mutex tracing_bent_cones_;
 };
 
 }  // namespace pivot
