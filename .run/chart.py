@@ -119,7 +119,8 @@ def main(blend: Path, ladder_name: str, folder: Path) -> None:
         renderer: measure.reference_of(renderer, chosen, pictures)
         for renderer in {rung.renderer for rung in chosen.rungs}
     }
-    flips = [flip(references[row.rung.renderer].mean, np.load(row.file)["image"], pixels.srgb) for row in rows]
+    srgb = pixels.srgb_from_linear
+    flips = [flip(references[row.rung.renderer].mean, np.load(row.file)["image"], srgb) for row in rows]
     out = {kind: folder / f"{blend.stem}{kind}" for kind in (".png", ".csv", "-sheet.png")}
     plot.draw_chart(core, rows, out[".png"], *plot.titles(blend.stem, chosen))
     noises = {renderer: reference.noise for renderer, reference in references.items()}

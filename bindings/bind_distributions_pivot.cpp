@@ -50,6 +50,16 @@ Returns axis (..., 3) and versine (...). [Dupuy17 Eq 6-7, as a linear map])",
             return std::tuple(image.axis, image.versine);
         },
         direction("axis"), versine("versine"), pivot_direction, delta);
+    define(
+        distributions, "pivot_transform_cap_versines",
+        R"(1 - cos psi' and 1 + cos psi' of the cap that a cap maps to: near the whole sphere the second keeps all its bits.
+
+axis, pivot_direction: (..., 3) unit; versine: (...) in [0, 2]; delta: (...) in (0, 1]. Returns (...) and (...).)",
+        []<class T>(Vec3<T> axis, T h, Vec3<T> u, T d) {
+            const Vec2<T> versines = transform_versines(Pivot<T>{u, d}, Cap<T>{axis, h});
+            return std::tuple(versines.x, versines.y);
+        },
+        direction("axis"), versine("versine"), pivot_direction, delta);
 }
 
 void register_uniform(py::module_& distributions) {

@@ -26,7 +26,6 @@ Vertex vertex_at(Scene& scene, const Material& material, const Triple& position,
                              .frame = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, normal},
                              .error_m = 0.0f,
                              .is_front = true,
-                             .instance = 0,
                              .material = &material,
                              .wo_local = normalize(to_vec3(wo))};
     return {Sampler(), point, make_surface(material, point.wo_local), Dimensions(0), light_samples};
@@ -89,6 +88,52 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
     return py::make_tuple(pdf_omega, reflected, pdf_omega_bsdf, shares);
 }
 
+py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+                           const FloatArray& u) {
+    require_shape(u, "u", {-1});
+    const Vertex vertex = vertex_at(scene, material, position, wo, 1);
+    py::array_t<std::int64_t> light(u.shape(0));
+    py::array_t<float> probability(u.shape(0));
+    for (py::ssize_t i = 0; i < u.shape(0); ++i) {
+        LightChoice choice{};
+        const bool found =
+            choose_lights(scene.light_tree(), vertex.point, vertex.surface, u.at(i), std::span(&choice, 1)) > 0;
+        light.mutable_at(i) = found ? static_cast<std::int64_t>(choice.light) : -1;
+        probability.mutable_at(i) = choice.probability;
+    }
+    return py::make_tuple(light, probability);
+}
+
+py::array_t<float> choice_probabilities(Scene& scene, const Material& material, const Triple& position,
+                                        const Triple& wo) {
+    const Vertex vertex = vertex_at(scene, material, position, wo, 1);
+    py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lights().size()));
+    for (std::size_t light = 0; light < scene.lights().size(); ++light) {
+        probabilities.mutable_data()[light] =
+            choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
+    }
+    return probabilities;
+}
+
+/// Each node as (child (n,), center (n, 3), radius_m (n,), radiance (n,), sun_versine (n,)).
+py::list light_tree(Scene& scene) {
+    scene.commit();
+    py::list nodes;
+    for (const LightTree::Node& node : scene.light_tree().nodes()) {
+        const auto count = static_cast<py::ssize_t>(node.count);
+        const LightProxies& proxies = node.proxies;
+        const auto values = [&](const LightProxies::Values& v) { return py::array_t<float>(count, v.data()); };
+        py::array_t<float> center({count, py::ssize_t(3)});
+        for (std::size_t i = 0; i < node.count; ++i) {
+            float* row = center.mutable_data(static_cast<py::ssize_t>(i));
+            row[0] = proxies.center_x[i], row[1] = proxies.center_y[i], row[2] = proxies.center_z[i];
+        }
+        nodes.append(py::make_tuple(py::array_t<std::int32_t>(count, node.child.data()), center,
+                                    values(proxies.radius_m), values(proxies.radiance), values(proxies.sun_versine)));
+    }
+    return nodes;
+}
+
 }  // namespace
 
 void register_light_samples(py::module_& module) {
@@ -103,6 +148,17 @@ void register_light_samples(py::module_& module) {
               "Of sample_lights at directions wi (n, 3): the density of a path's samples of each light per steradian "
               "(n, lights), 0 where they would add nothing; what is reflected of the light's radiance (n, lights, 3); "
               "the density of BSDF samples (n,); which lights share with these by the balance heuristic (lights,).");
+    scene.def(
+        "choose_lights", &choose_lights_at, py::arg("material"), py::arg("position"), py::arg("wo"), py::arg("u"),
+        "The light that each u (n,) in [0, 1) chooses down the light tree, (n,), -1 where none reaches the point, "
+        "and with which probability, (n,).");
+    scene.def("choice_probabilities", &choice_probabilities, py::arg("material"), py::arg("position"), py::arg("wo"),
+              "With which probability choose_lights takes each light, (lights,).");
+    scene.def(
+        "light_tree", &light_tree,
+        "Its nodes, the root first, each as (child (n,): a node, or ~light; center (n, 3); radius_m (n,); radiance "
+        "(n,), the mean over colours; sun_versine (n,)): the spheres, or where sun_versine is above 0 the caps, "
+        "that stand for the children.");
 }
 
 }  // namespace pivot::bindings

@@ -45,17 +45,16 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
             {{"RAY_TRACED", Occlusion::ray_traced}, {"BENT_CONE", Occlusion::bent_cone}, {"NONE", Occlusion::none}}),
         .time_limit_s = time_limit_s,
         .threads = threads,
-        .filter_shape = from_name<PixelFilterShape>(
-            "pixel_filter", pixel_filter,
-            {{"BLACKMAN_HARRIS", PixelFilterShape::blackman_harris}, {"BOX", PixelFilterShape::box}}),
+        .filter_shape = pixel_filter_from(pixel_filter),
         .filter_width_px = filter_width_px,
         .transparent_film = transparent_film};
 }
 
-py::array_t<float> read(const Session& session, const string& pass) {
+py::array_t<float> read(const Session& session, const string& pass_name) {
+    const Pass& pass = find_pass(pass_name);
     const Film& film = session.film();
     const std::vector<float> values = film.read(pass);
-    return py::array_t<float>({film.height(), film.width(), Film::channels(pass)}, values.data());
+    return py::array_t<float>({film.height(), film.width(), pass.channels}, values.data());
 }
 
 }  // namespace
@@ -68,8 +67,9 @@ void register_render(py::module_& module) {
              py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false);
-    py::class_<Session>(module, "Session",
-                        "A render by native threads. The scene must not be edited until the session has ended.")
+    py::class_<Session>(
+        module, "Session",
+        "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
         .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
         .def("start", &Session::start, "Starts the threads and returns at once.")
         .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),

@@ -102,7 +102,7 @@ void register_material(py::module_& module) {
         "The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is "
         "multiplied, plus, times "
         "dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal "
-        "incidence is scaled by dielectric_tint.")
+        "incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1.")
         .def(py::init([](const Triple& diffuse, float alpha, const Triple& conductor_f0, const Triple& conductor_f90,
                          float conductor_weight, float dielectric_weight, float dielectric_ior,
                          const Triple& dielectric_tint, bool multiscatter, const Triple& emission) {

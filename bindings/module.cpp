@@ -33,6 +33,9 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_pixels(distributions);
     register_media(distributions);
 
+    auto sampling = module.def_submodule("sampling", "Owen-scrambled Sobol points, over NumPy arrays.");
+    register_sampling(sampling);
+
     auto bsdf = module.def_submodule("bsdf", "The GGX lobe and Fresnel reflectance, over NumPy arrays.");
     register_bsdf(bsdf);
 
@@ -42,6 +45,9 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     auto shading =
         module.def_submodule("shading", "Lobes under lights within an error budget, as the renderer does it.");
     register_shading(shading);
+
+    auto film = module.def_submodule("film", "The pixel filter and the sample counts of adaptive sampling.");
+    register_film(film);
 
     register_scene(module);
     register_rays(module);

@@ -32,4 +32,9 @@ inline LightSampling light_sampling_from(const std::string& name) {
                                      {"BSDF", LightSampling::bsdf}});
 }
 
+inline PixelFilterShape pixel_filter_from(const std::string& name) {
+    return from_name<PixelFilterShape>(
+        "pixel_filter", name, {{"BLACKMAN_HARRIS", PixelFilterShape::blackman_harris}, {"BOX", PixelFilterShape::box}});
+}
+
 }  // namespace pivot::bindings

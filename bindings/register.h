@@ -12,9 +12,11 @@ void register_ltsd(pybind11::module_& distributions);
 void register_gaussian(pybind11::module_& distributions);
 void register_pixels(pybind11::module_& distributions);
 void register_media(pybind11::module_& distributions);
+void register_sampling(pybind11::module_& sampling);
 void register_bsdf(pybind11::module_& bsdf);
 void register_tables(pybind11::module_& tables);
 void register_shading(pybind11::module_& shading);
+void register_film(pybind11::module_& film);
 
 void register_scene(pybind11::module_& module);
 void register_rays(pybind11::module_& module);

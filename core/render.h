@@ -19,7 +19,7 @@ namespace pivot {
 
 class Session {
    public:
-    /// The scene must not be edited until the session has ended.
+    /// Sessions may share a scene, which must not be edited until all have ended.
     Session(std::shared_ptr<Scene> scene, const RenderSettings& settings);
     /// Stops and waits.
     ~Session();

@@ -25,6 +25,7 @@ CORE_ROWS = (
     ("render",),
 )
 ROW_OF = {folder: row for row, folders in enumerate(CORE_ROWS) for folder in folders}
+CORE_PROPERTIES = {"energy", "identities", "oracles", "sample_weights", "samplers", "session", "stability"}
 BLENDER_MODULES = {
     "bpy",
     "bpy_extras",
@@ -118,6 +119,13 @@ def violations(root: Path) -> list[str]:
 def test_this_tree_keeps_the_order() -> None:
     assert any(cpp_files(ROOT / "core"))
     assert violations(ROOT) == []
+
+
+def test_core_tests_are_named_after_what_they_test() -> None:
+    """A file or folder of core/, or one of the properties that the README lists."""
+    known = {path.stem for path in (ROOT / "core").rglob("*")} | CORE_PROPERTIES
+    names = {re.sub("^test_|_linear$|_table$", "", path.stem) for path in ROOT.glob("tests/core/test_*.py")}
+    assert names - known == set()
 
 
 @pytest.mark.parametrize(

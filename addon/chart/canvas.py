@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..export.mesh import mesh_arrays
-from .pixels import linear, to_bytes
+from ..srgb import linear_from_srgb
+from .pixels import to_bytes
 
 Floats = NDArray[np.float64]
 Color = tuple[float, float, float]  # sRGB, 0..1
@@ -31,7 +32,7 @@ class Canvas:
         self.width, self.height = width, height
         self._core = core
         self._scene = core.Scene()
-        self._paper = linear(np.array(paper))
+        self._paper = linear_from_srgb(np.array(paper))
         self._depth_px = 0.0
         self._images: list[tuple[int, int, Floats]] = []
 
@@ -82,7 +83,7 @@ class Canvas:
         positions = np.column_stack([points * nearer, np.full(len(points), self._depth_px)]).astype(np.float32)
         corners = np.ascontiguousarray(triangles, np.int32).ravel()
         mesh = self._scene.add_mesh("shape", positions, corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
-        emission = tuple(float(channel) for channel in linear(np.array(color)))
+        emission = tuple(float(channel) for channel in linear_from_srgb(np.array(color)))
         material = self._scene.add_material("ink", self._core.Material(emission=emission))
         self._scene.add_instances("shape", mesh, np.eye(4, dtype=np.float32)[None], [material])
 

@@ -1,4 +1,4 @@
-"""Colours as a screen shows them, and PNG files. Needs NumPy alone."""
+"""Pictures as a screen shows them, and PNG files."""
 
 from __future__ import annotations
 
@@ -9,21 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.floating]
-
-
-def linear(srgb: Floats) -> Floats:
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-
-
-def srgb(linear_rgb: Floats) -> Floats:
-    """Clipped to 0..1."""
-    clipped = np.clip(linear_rgb, 0, 1)
-    return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
+from ..srgb import Floats, srgb_from_linear
 
 
 def to_bytes(linear_rgb: Floats) -> NDArray[np.uint8]:
-    return np.round(255 * srgb(linear_rgb)).astype(np.uint8)
+    return np.round(255 * srgb_from_linear(linear_rgb)).astype(np.uint8)
 
 
 def write_png(path: Path, image: NDArray[np.uint8]) -> None:

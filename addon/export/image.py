@@ -6,6 +6,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..srgb import linear_from_srgb
+
 _MAX_PIXELS = 1 << 20  # a mean needs no more
 
 
@@ -29,10 +31,5 @@ def mean_pixel(image: bpy.types.Image, equirectangular: bool = False) -> NDArray
         rgba[..., :3] = pixels[..., :1]
         rgba[..., 3] = pixels[..., 1] if channels == 2 else 1.0
     if not image.is_float and image.colorspace_settings.name == "sRGB":
-        rgba[..., :3] = _linear_from_srgb(rgba[..., :3])
+        rgba[..., :3] = linear_from_srgb(rgba[..., :3])
     return np.average(rgba.mean(axis=1), axis=0, weights=weights)
-
-
-def _linear_from_srgb(encoded: NDArray[np.float64]) -> NDArray[np.float64]:
-    """IEC 61966-2-1."""
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)

@@ -129,7 +129,7 @@ def _glass(feed: Socket, owner: Owner) -> Surface:
         diffuse=colour(feed.input("Color"), owner),
         alpha=_alpha(feed, owner),
         dielectric_weight=1.0,
-        dielectric_ior=number(feed.input("IOR"), owner),
+        dielectric_ior=_ior(feed, owner),
         multiscatter=_multiscatter(feed, owner),
     )
 
@@ -180,16 +180,27 @@ def _dielectric(feed: Socket, owner: Owner, base: Colour) -> tuple[float, Colour
     """
     level = feed.find_input("Specular IOR Level")
     if level is not None:
-        ior = max(number(feed.input("IOR"), owner), 1e-5)
+        ior = _ior(feed, owner)
         f0 = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(number(level, owner), 0.0)
-        tint = np.maximum(colour(feed.input("Specular Tint"), owner), 0)
-        adjusted = _ior_from_f0(f0)
-        return (adjusted if ior >= 1 else 1 / adjusted), tint
+        return _ior_from_f0(f0), np.maximum(colour(feed.input("Specular Tint"), owner), 0)
     f0 = 0.08 * max(number(feed.input("Specular"), owner), 0.0)
     luminance = float(base @ (0.3, 0.6, 0.1))
     hue = base / luminance if luminance > 0 else np.ones(3)
     amount = number(feed.input("Specular Tint"), owner)
     return _ior_from_f0(f0), (1 - amount) + amount * hue
+
+
+def _ior(feed: Socket, owner: Owner) -> float:
+    """The index of refraction, at least 1.
+
+    One below reflects all light past some angle, which the core does not know; its inverse reflects as much at normal
+    incidence.
+    """
+    ior = max(number(feed.input("IOR"), owner), 1e-5)
+    if ior >= 1:
+        return ior
+    owner.warn(feed.node, "an IOR below 1 is not supported, it is shown as 1 / IOR")
+    return 1 / ior
 
 
 def _ior_from_f0(f0: float) -> float:

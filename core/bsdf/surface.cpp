@@ -47,7 +47,7 @@ Surface make_surface(const Material& material, const Vec3f& wo_local) {
                     .fresnel = {},
                     .glossy_probability = 0.0f};
     LobeFresnel& fresnel = surface.fresnel;
-    fresnel.ior = std::max(material.dielectric_ior, 1.0f);
+    fresnel.ior = material.dielectric_ior;
     if (!material.has_glossy()) return surface;
 
     const float albedo = ggx_albedo(surface.alpha, wo_local.z);

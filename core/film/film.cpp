@@ -7,36 +7,27 @@
 namespace pivot {
 namespace {
 
-void write(const Pixel& pixel, std::string_view pass, float* out) {
-    const float scale = pixel.count > 0 ? 1.0f / static_cast<float>(pixel.count) : 0.0f;
-    const auto put = [&](const Vec3f& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
-    if (pass == "Combined") {
-        put(pixel.sum.radiance * scale);
-        out[3] = pixel.sum.alpha * scale;
-    } else if (pass == "Depth") {
-        out[0] = pixel.center.depth_m;
-    } else if (pass == "Normal") {
-        put(pixel.sum.normal * scale);
-    } else if (pass == "Position") {
-        put(pixel.center.position);
-    } else if (pass == "DiffCol") {
-        put(pixel.sum.albedo * scale);
-    } else if (pass == "Emit") {
-        put(pixel.sum.emission * scale);
-    } else if (pass == "Method") {
-        put(pixel.sum.method * scale);
-    } else {
-        out[0] = predicted_error(pixel);
-    }
+void put(const Vec3f& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+void write_combined(const Pixel& pixel, float* out) {
+    put(pixel.sum.radiance * pixel.per_sample(), out);
+    out[3] = pixel.sum.alpha * pixel.per_sample();
 }
 
-}  // namespace
+/// A sum of three channels as its mean.
+template <Vec3f Sample::*sum>
+void write_mean(const Pixel& pixel, float* out) {
+    put(pixel.sum.*sum * pixel.per_sample(), out);
+}
 
+/// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
+/// the closed forms, and that of evenly spread samples whose values differ, by shadows and edges in the pixel.
 float predicted_error(const Pixel& pixel) {
+    constexpr float deviations = 2.0f;  // 19 pixels in 20 are within them
+    constexpr float least_radiance = 1e-3f;
     if (pixel.count == 0) return 0.0f;
     const auto n = static_cast<float>(pixel.count);
     const float sum = mean_component(pixel.sum.radiance);
-    constexpr float deviations = 2.0f;  // 19 pixels in 20 are within them
     // One sample knows of its own rays only.
     const float spread = n > 1.0f ? std::max(pixel.sum_of_squares - sum * sum / n, 0.0f) / (n - 1.0f) : 0.0f;
     const float variance = std::max(spread, pixel.sum.shadow_variance / n);
@@ -44,17 +35,30 @@ float predicted_error(const Pixel& pixel) {
     return error / std::max(std::abs(sum / n), least_radiance);
 }
 
+constexpr Pass passes[] = {
+    {"Combined", 4, write_combined},
+    {"Depth", 1, [](const Pixel& pixel, float* out) { *out = pixel.center.depth_m; }},
+    {"Normal", 3, write_mean<&Sample::normal>},
+    {"Position", 3, [](const Pixel& pixel, float* out) { put(pixel.center.position, out); }},
+    {"DiffCol", 3, write_mean<&Sample::albedo>},
+    {"Emit", 3, write_mean<&Sample::emission>},
+    {"Method", 3, write_mean<&Sample::method>},
+    {"Error", 1, [](const Pixel& pixel, float* out) { *out = predicted_error(pixel); }},
+};
+
+}  // namespace
+
+const Pass& find_pass(std::string_view name) {
+    std::string known;
+    for (const Pass& pass : passes) {
+        if (pass.name == name) return pass;
+        known += (known.empty() ? "" : ", ") + std::string(pass.name);
+    }
+    throw std::invalid_argument("there is no pass '" + std::string(name) + "'; choose one of " + known);
+}
+
 Film::Film(int width, int height)
     : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
-
-int Film::channels(std::string_view pass) {
-    for (const PassInfo& info : passes) {
-        if (info.name == pass) return info.channels;
-    }
-    std::string known;
-    for (const PassInfo& info : passes) known += (known.empty() ? "" : ", ") + std::string(info.name);
-    throw std::invalid_argument("there is no pass '" + std::string(pass) + "'; choose one of " + known);
-}
 
 void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const {
     pixels.clear();
@@ -72,11 +76,11 @@ void Film::store(const Tile& tile, const std::vector<Pixel>& pixels) {
     }
 }
 
-std::vector<float> Film::read(std::string_view pass) const {
-    const auto stride = static_cast<std::size_t>(channels(pass));
+std::vector<float> Film::read(const Pass& pass) const {
+    const auto stride = static_cast<std::size_t>(pass.channels);
     std::vector<float> values(pixels_.size() * stride);
     const std::unique_lock lock(mutex_);
-    for (std::size_t i = 0; i < pixels_.size(); ++i) write(pixels_[i], pass, &values[i * stride]);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) pass.write(pixels_[i], &values[i * stride]);
     return values;
 }
 

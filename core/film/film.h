@@ -36,26 +36,24 @@ struct Pixel {
     CenterSample center;
     float sum_of_squares = 0.0f;  ///< of the samples' mean radiance over colours
     std::uint32_t count = 0;
+
+    /// What a sum is multiplied by for its mean; 0 without samples.
+    float per_sample() const { return count > 0 ? 1.0f / static_cast<float>(count) : 0.0f; }
 };
-
-/// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
-/// the closed forms, and that of evenly spread samples whose values differ, by shadows and edges in the pixel.
-float predicted_error(const Pixel& pixel);
-
-inline constexpr float least_radiance = 1e-3f;
 
 struct Tile {
     int x0, y0, x1, y1;
 };
 
-/// A pass by Blender's name, with its channels.
-struct PassInfo {
+/// A pass by Blender's name, its channels, and how a pixel writes them.
+struct Pass {
     std::string_view name;
     int channels;
+    void (*write)(const Pixel& pixel, float* out);
 };
 
-inline constexpr PassInfo passes[] = {{"Combined", 4}, {"Depth", 1}, {"Normal", 3}, {"Position", 3},
-                                      {"DiffCol", 3},  {"Emit", 3},  {"Method", 3}, {"Error", 1}};
+/// Throws std::invalid_argument, which lists the passes there are.
+const Pass& find_pass(std::string_view name);
 
 class Film {
    public:
@@ -68,9 +66,8 @@ class Film {
     void load(const Tile& tile, std::vector<Pixel>& pixels) const;
     void store(const Tile& tile, const std::vector<Pixel>& pixels);
 
-    /// A pass as width x height x channels, bottom row first. Throws std::invalid_argument for an unknown name.
-    std::vector<float> read(std::string_view pass) const;
-    static int channels(std::string_view pass);
+    /// A pass as height x width x channels, bottom row first.
+    std::vector<float> read(const Pass& pass) const;
 
    private:
     Pixel* row(int x, int y) {

@@ -20,7 +20,7 @@ class PixelFilter {
             for (std::size_t k = 0; k <= cells; ++k) inverse_[k] = static_cast<float>(k) / cells;
             return;
         }
-        constexpr std::size_t steps = 64;  // integration steps per table cell
+        constexpr std::size_t steps = 16;  // integration steps per table cell
         double sum = 0.0;
         std::array<double, cells * steps + 1> cumulative{};
         for (std::size_t i = 0; i < cells * steps; ++i) {
@@ -41,7 +41,7 @@ class PixelFilter {
     Vec2f sample(const Vec2f& u) const { return {sample_axis(u.x), sample_axis(u.y)}; }
 
    private:
-    static constexpr std::size_t cells = 256;
+    static constexpr std::size_t cells = 1024;
 
     /// The window over [0, 1], four terms [Harris78, table I].
     static double window(double x) {

@@ -1,6 +1,7 @@
 #include "core/scene/scene.h"
 
 #include <stdexcept>
+#include <thread>
 
 namespace pivot {
 namespace {
@@ -46,6 +47,10 @@ void require_valid(const std::string& name, const Material& material) {
         !(material.conductor_weight >= 0.0f)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
+    if (material.alpha < 0.0f || material.alpha > 1.0f)
+        throw std::invalid_argument("material '" + name + "': alpha must be in [0, 1]");
+    if (material.dielectric_ior < 1.0f)
+        throw std::invalid_argument("material '" + name + "': dielectric_ior must be at least 1");
 }
 
 constexpr std::uint32_t no_light = ~0u;
@@ -75,12 +80,19 @@ Vec3f bend_towards(const Vec3f& normal, const Vec3f& wo) {
 
 }  // namespace
 
-void Scene::require_editable() const {
+void Scene::begin_edit() {
     if (holders_ > 0) throw std::logic_error("the scene is being rendered: wait for the session to end, then edit it");
+    is_committed_ = false;
+}
+
+std::optional<Light>& Scene::light_at(std::uint32_t id) {
+    NamedLight& named = at(lights_, id, "light");
+    if (!named.light) throw std::invalid_argument("light '" + named.name + "' was removed");
+    return named.light;
 }
 
 std::uint32_t Scene::add_mesh(Mesh mesh) {
-    require_editable();
+    begin_edit();
     require_valid(mesh);
     const auto id = static_cast<std::uint32_t>(meshes_.size());
     meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
@@ -89,14 +101,14 @@ std::uint32_t Scene::add_mesh(Mesh mesh) {
 }
 
 std::uint32_t Scene::add_material(const std::string& name, const Material& material) {
-    require_editable();
+    begin_edit();
     require_valid(name, material);
     materials_.push_back(material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
 }
 
 std::uint32_t Scene::add_instance(Instance instance) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     require_finite(instance.world_from_object, instance.name);
     at(meshes_, instance.mesh, "mesh");
@@ -110,26 +122,26 @@ std::uint32_t Scene::add_instance(Instance instance) {
 }
 
 std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     lights_.push_back(NamedLight{name, light});
     return static_cast<std::uint32_t>(lights_.size() - 1);
 }
 
 void Scene::set_material(std::uint32_t id, const Material& material) {
-    require_editable();
+    begin_edit();
     require_valid(std::to_string(id), material);
     at(materials_, id, "material") = material;
 }
 
 void Scene::set_light(std::uint32_t id, const Light& light) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
-    at_present(lights_, id, "light").light = light;
+    light_at(id) = light;
 }
 
 void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from_object) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     Instance& instance = at_present(instances_, id, "instance");
     require_finite(world_from_object, instance.name);
@@ -139,7 +151,7 @@ void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from
 }
 
 void Scene::remove_instance(std::uint32_t id) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     at_present(instances_, id, "instance");
     instances_[id].reset();
@@ -147,21 +159,20 @@ void Scene::remove_instance(std::uint32_t id) {
 }
 
 void Scene::remove_light(std::uint32_t id) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
-    at_present(lights_, id, "light");
-    lights_[id].reset();
+    light_at(id).reset();
 }
 
 void Scene::set_world(const Rgb& radiance) {
-    require_editable();
+    begin_edit();
     bent_cones_.clear();
     if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
     world_ = radiance;
 }
 
 void Scene::set_camera(const Camera& camera) {
-    require_editable();
+    begin_edit();
     require_finite(camera.world_from_camera, "camera");
     const Window& w = camera.window;
     if (camera.width < 1 || camera.height < 1)
@@ -177,11 +188,13 @@ void Scene::set_camera(const Camera& camera) {
 }
 
 void Scene::commit() {
+    const std::lock_guard lock(committing_);
+    if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     ray_tracer_.commit();
     active_lights_.clear();
-    for (const auto& light : lights_) {
-        if (light) active_lights_.push_back(light->light);
+    for (const NamedLight& named : lights_) {
+        if (named.light) active_lights_.push_back(*named.light);
     }
     lamp_count_ = active_lights_.size();
     has_unsampled_light_ = has_world();
@@ -195,6 +208,7 @@ void Scene::commit() {
         add_triangle_lights(*instances_[i], triangle_lights_[i]);
     }
     light_tree_ = LightTree(active_lights_);
+    is_committed_ = true;
 }
 
 std::uint32_t Scene::material_of(const Instance& instance, std::uint32_t triangle) const {
@@ -226,6 +240,11 @@ std::optional<std::size_t> Scene::light_of(const RayHit& hit) const {
 }
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
+    std::unique_lock lock(tracing_bent_cones_, std::defer_lock);
+    while (!lock.try_lock()) {
+        if (should_stop()) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     if (!bent_cones_.empty()) return;
     LightReach reach{.positions = {}, .is_infinite = has_world()};
     for (const Light& light : lamps()) {
@@ -297,7 +316,6 @@ SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
             .frame = frame,
             .error_m = error_per_magnitude * max_component(magnitude),
             .is_front = is_front,
-            .instance = hit.instance,
             .material = &materials_[material_of(instance, hit.triangle)],
             .wo_local = frame.to_local(wo)};
 }

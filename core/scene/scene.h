@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Instance {
 
 struct NamedLight {
     std::string name;
-    Light light;
+    std::optional<Light> light;  ///< none: removed
 };
 
 class Scene {
@@ -41,13 +42,14 @@ class Scene {
     void set_world(const Rgb& radiance);
     void set_camera(const Camera& camera);
 
-    /// Makes the scene ready for rays. Throws std::invalid_argument without a camera.
+    /// Makes the scene ready for rays after edits. Of several renders that start together one does it, the others wait.
+    /// Throws std::invalid_argument without a camera.
     void commit();
-    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(). None are there
-    /// once should_stop has returned true.
+    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(), and shared as it
+    /// is. None are there once should_stop has returned true.
     void trace_bent_cones(const std::function<bool()>& should_stop);
 
-    /// While a render holds the scene, every edit throws std::logic_error.
+    /// While a render holds the scene, every edit throws std::logic_error. Renders that hold it may share it.
     void hold() { ++holders_; }
     void release() { --holders_; }
 
@@ -83,14 +85,16 @@ class Scene {
     }
 
    private:
-    void require_editable() const;
+    /// Throws std::logic_error while the scene is held.
+    void begin_edit();
+    std::optional<Light>& light_at(std::uint32_t id);
     void add_triangle_lights(const Instance& instance, std::vector<std::uint32_t>& light_of_triangle);
     std::uint32_t material_of(const Instance& instance, std::uint32_t triangle) const;
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
     std::vector<Material> materials_;
     std::vector<std::optional<Instance>> instances_;
-    std::vector<std::optional<NamedLight>> lights_;
+    std::vector<NamedLight> lights_;
     std::vector<Light> active_lights_;
     std::size_t lamp_count_ = 0;
     std::vector<std::vector<std::uint32_t>> triangle_lights_;  ///< by instance and triangle; empty: none shines
@@ -101,6 +105,8 @@ class Scene {
     bool has_unsampled_light_ = false;
     RayTracer ray_tracer_;
     std::atomic<int> holders_{0};
+    std::mutex committing_, tracing_bent_cones_;
+    bool is_committed_ = false;
 };
 
 }  // namespace pivot

@@ -12,7 +12,6 @@ struct SurfacePoint {
     Frame<float> frame;      ///< z: the shading normal, towards the viewer
     float error_m;           ///< bound of position's rounding error
     bool is_front;           ///< whether normal_geometric is the triangle's own, not turned
-    std::uint32_t instance;
     const Material* material;
     Vec3f wo_local;
 

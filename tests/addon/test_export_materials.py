@@ -111,6 +111,9 @@ def test_nearest_meanings(host: Host, materials: dict[str, Any]) -> None:
     assert materials["rough_noise"]["alpha"] == pytest.approx(0.09)
     check(materials["bump"], diffuse=RED)
     check(materials["glass"], diffuse=GREEN, dielectric_weight=1, dielectric_ior=1.5, alpha=0.25)
+    check(materials["glass_bubble"], diffuse=GREEN, dielectric_weight=1, dielectric_ior=2, alpha=0.25)
+    principled_ior = 2 if host.version >= (4, 0) else 1.5
+    check(materials["bubble"], diffuse=(0.8,) * 3, dielectric_weight=1, dielectric_ior=principled_ior)
     check(materials["translucent"], diffuse=GREEN)
     check(materials["see_through"], diffuse=(0.8,) * 3)
     check(materials["oren_nayar"], diffuse=RED)
@@ -143,6 +146,7 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         "rough_noise": ["Noise Texture"],
         "bump": ["Diffuse BSDF"],
         "glass": ["Glass BSDF"],
+        "glass_bubble": ["Glass BSDF"] * 2,
         "translucent": ["Translucent BSDF"],
         "see_through": ["Transparent BSDF", None],
         "oren_nayar": ["Diffuse BSDF"],
@@ -156,6 +160,7 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         "no_surface": [None],
     }
     if host.version >= (4, 0):
+        expected["bubble"] = ["Principled BSDF"]  # before, its IOR is of transmission alone
         expected["loop"] = [None]  # before, Blender itself cuts a loop open
         expected["edged_metal"] = ["Principled BSDF"]
     if host.version >= (4, 3):

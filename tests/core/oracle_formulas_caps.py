@@ -25,6 +25,29 @@ def axis_at(theta: np.ndarray) -> np.ndarray:
     return np.asarray([np.sin(theta), 0, np.cos(theta)], theta.dtype)
 
 
+def rings_across_rim(distance: float, psi: float, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The circles about a pole that a cap's rim cuts, for t in 0..pi: their angles from the pole, the derivative of
+    these by t, and how far in azimuth to either side of the cap's axis a circle is inside the cap.
+
+    distance: of the axis from the pole. The angles run as a cosine of t, which takes the square root out of both ends.
+    A circle at the angle beta is inside up to the azimuth phi, where sin beta sin distance times
+        sin^2 phi/2 is sin((distance + psi - beta) / 2) sin((beta + psi - distance) / 2),
+        cos^2 phi/2 is sin((beta + distance + psi) / 2) sin((beta + distance - psi) / 2):
+    products of the four distances from the ends, each with its own bits, so that the tiniest cap has them all.
+    """
+    near, far = abs(distance - psi), min(distance + psi, 2 * np.pi - distance - psi)
+    half = min(distance, psi, np.pi - distance, np.pi - psi)
+    from_near, to_far = 2 * half * np.sin(t / 2) ** 2, 2 * half * np.cos(t / 2) ** 2
+    low = [np.sin(from_near / 2), np.sin(near + from_near / 2)]
+    high = [np.sin(to_far / 2), np.sin(far - to_far / 2)]
+    if psi > distance:
+        low.reverse()
+    if psi > np.pi - distance:
+        high.reverse()
+    reach = 2 * np.arctan2(np.sqrt(low[0] * high[0]), np.sqrt(low[1] * high[1]))
+    return near + from_near, half * np.sin(t), reach
+
+
 def cap_solid_angle(inputs: Values, dtype: type) -> Values:
     return {"A": pd.cap_solid_angle(versine(inputs["psi"]))}
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pivot_core.distributions as pd
 
-from tests.core.oracle_formulas_caps import versine
+from tests.core.oracle_formulas_caps import rings_across_rim, versine
 
 
 def pivot_phase(inputs: dict[str, Any], dtype: type) -> dict[str, Any]:
@@ -32,20 +32,21 @@ def hg_fit_Q(inputs: dict[str, Any], dtype: type) -> dict[str, Any]:
 
 
 def henyey_greenstein_over_cap(g: Any, omega_o: Any, axis: Any, psi: Any) -> Any:
-    """By rings around omega_o: whole ones by the cdf, those that the cap's rim cuts by Gauss-Legendre."""
-    distance = np.arctan2(np.linalg.norm(np.cross(omega_o, axis)), omega_o @ axis)
-    near, far = abs(distance - psi), min(distance + psi, 2 * np.pi - distance - psi)
+    """By rings around omega_o: those that the cap's rim cuts and the whole ones ahead by Gauss-Legendre, for the cdf
+    has none of a tiny cap's bits there, and the whole ones behind by the cdf."""
+    axis, omega_o = np.asarray(axis, np.float64), np.asarray(omega_o, np.float64)
+    distance, psi = np.arctan2(np.linalg.norm(np.cross(omega_o, axis)), omega_o @ axis), float(psi)
     t, weight = np.polynomial.legendre.leggauss(200)
     t, weight = np.pi / 2 * (1 + t), np.pi / 2 * weight
-    theta = (near + far) / 2 - (far - near) / 2 * np.cos(t)
-    weight = weight * (far - near) / 2 * np.sin(t)
-    cosine = (np.cos(psi) - np.cos(theta) * np.cos(distance)) / (np.sin(theta) * np.sin(distance))
-    arcs = 2 * np.arccos(np.clip(cosine, -1, 1)) * np.sin(theta)
-    integral = pd.henyey_greenstein_eval(g, np.cos(theta).astype(g.dtype)) @ (arcs * weight)
+    theta, slope, reach = rings_across_rim(distance, psi, t)
+    arcs = 2 * reach * np.sin(theta)
+    integral = pd.henyey_greenstein_eval(g, np.cos(theta).astype(g.dtype)) @ (arcs * weight * slope)
     if psi > distance:
-        integral += 1 - pd.henyey_greenstein_cdf(g, np.cos(near).astype(g.dtype))
+        theta, slope = (psi - distance) * np.sin(t / 2) ** 2, (psi - distance) / 2 * np.sin(t)
+        rings = 2 * np.pi * np.sin(theta)
+        integral += pd.henyey_greenstein_eval(g, np.cos(theta).astype(g.dtype)) @ (rings * weight * slope)
     if psi > np.pi - distance:
-        integral += pd.henyey_greenstein_cdf(g, np.cos(far).astype(g.dtype))
+        integral += pd.henyey_greenstein_cdf(g, np.cos(2 * np.pi - distance - psi).astype(g.dtype))
     return integral
 
 

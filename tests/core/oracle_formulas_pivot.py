@@ -28,13 +28,16 @@ def sptd_g_off_sphere(inputs: Values, dtype: type) -> Values:
 
 def sptd_cap_transform(inputs: Values, dtype: type) -> Values:
     axis, h = pd.pivot_transform_cap(*light_of(inputs), *pivot_of(inputs))
-    # the rest of the sphere maps to the rest of the sphere: near versine 2 that holds the sine's bits
-    rest = -inputs["cap_dir"], np.asarray(2 * np.cos(inputs["psi"] / 2) ** 2, dtype)
-    small = h if h < 1 else pd.pivot_transform_cap(*rest, *pivot_of(inputs))[1]
+    # of the cap and the rest of the sphere, which maps to the rest, the smaller holds the bits of both
+    if inputs["psi"] <= np.pi / 2:
+        one_minus_cos, one_plus_cos = pd.pivot_transform_cap_versines(*light_of(inputs), *pivot_of(inputs))
+    else:
+        rest = -inputs["cap_dir"], np.asarray(2 * np.cos(inputs["psi"] / 2) ** 2, dtype)
+        one_plus_cos, one_minus_cos = pd.pivot_transform_cap_versines(*rest, *pivot_of(inputs))
     return {
         "dir": axis,
         "cos_psi": dtype(1) - h,
-        "sin_psi": np.sqrt(small * (dtype(2) - small)),
+        "sin_psi": np.sqrt(one_minus_cos * one_plus_cos),
         "A": pd.cap_solid_angle(h),
     }
 

@@ -123,6 +123,88 @@ def test_a_scene_under_render_cannot_be_edited() -> None:
     scene.set_world((1, 1, 1))
 
 
+def lamp_scene() -> pivot_core.Scene:
+    """A scene whose lights and bent cones take a while to be made ready, so that sessions meet there."""
+    scene = simple_scene()
+    for i in range(200):
+        place_m = (i % 20 - 10, i // 20 - 5, 3)
+        scene.add_light(f"lamp {i}", pivot_core.SphereLight(place_m, 0.1, (0.2, 0.2, 0.2)))
+    return scene
+
+
+MONTE_CARLO = pivot_core.RenderSettings(samples=2, threads=1)
+BENT_CONES = pivot_core.RenderSettings(integrator="ANALYTIC", occlusion="BENT_CONE", samples=1, threads=1)
+
+
+def alone(settings: pivot_core.RenderSettings) -> np.ndarray:
+    session = pivot_core.Session(lamp_scene(), settings)
+    session.start()
+    assert session.wait(60.0)
+    return session.read("Combined")
+
+
+def test_sessions_on_one_scene_give_the_pictures_they_give_alone() -> None:
+    every_settings = (MONTE_CARLO, BENT_CONES, MONTE_CARLO, BENT_CONES)
+    expected = {id(settings): alone(settings) for settings in (MONTE_CARLO, BENT_CONES)}
+    for _ in range(8):
+        scene = lamp_scene()
+        sessions = [pivot_core.Session(scene, settings) for settings in every_settings]
+        for session in sessions:
+            session.start()
+        with pytest.raises(RuntimeError, match="being rendered"):
+            scene.set_world((1, 1, 1))
+        for session, settings in zip(sessions, every_settings, strict=True):
+            assert session.wait(60.0)
+            np.testing.assert_array_equal(session.read("Combined"), expected[id(settings)])
+
+
+def test_a_session_that_joins_a_running_one_leaves_it_alone() -> None:
+    expected = alone(pivot_core.RenderSettings(samples=32, threads=1))
+    scene = lamp_scene()
+    session = pivot_core.Session(scene, pivot_core.RenderSettings(samples=32, threads=1))
+    session.start()
+    joined = 0
+    while not session.wait(0.0):
+        other = pivot_core.Session(scene, pivot_core.RenderSettings(samples=1, threads=1))
+        other.start()
+        assert other.wait(60.0)
+        joined += 1
+    assert joined > 1
+    np.testing.assert_array_equal(session.read("Combined"), expected)
+
+
+def test_a_session_that_waits_for_anothers_bent_cones_can_be_stopped() -> None:
+    scene = pivot_core.Scene()
+    chalk = scene.add_material("chalk", pivot_core.Material(diffuse=(1, 1, 1)))
+    scene.add_instances("ball", add_sphere(scene, 300), place(), [chalk])
+    set_camera(scene, (0, -8, 0), size=(16, 16))
+    tracing, waiting = (pivot_core.Session(scene, BENT_CONES) for _ in range(2))
+    tracing.start()
+    assert not tracing.wait(1.0)  # 180 thousand vertices, 256 rays each
+    waiting.start()
+    waiting.stop()
+    assert waiting.wait(1.0)
+    assert not tracing.wait(0.0)
+    tracing.stop()
+    assert tracing.wait(5.0)
+
+
+def test_edits_of_what_was_removed_name_it() -> None:
+    scene = pivot_core.Scene()
+    key = scene.add_light("key", pivot_core.SphereLight((0, 0, 1), 0.1, (1, 1, 1)))
+    scene.remove_light(key)
+    with pytest.raises(ValueError, match="light 'key' was removed"):
+        scene.set_light(key, pivot_core.SphereLight((0, 0, 2), 0.1, (1, 1, 1)))
+
+
+@pytest.mark.parametrize(("number", "range_"), [("alpha", r"in \[0, 1\]"), ("dielectric_ior", "at least 1")])
+def test_a_material_out_of_range_is_refused_by_name(number: str, range_: str) -> None:
+    scene = pivot_core.Scene()
+    wrong = {"alpha": 1.5, "dielectric_ior": 0.75}[number]
+    with pytest.raises(ValueError, match=f"material 'Gold': {number} must be {range_}"):
+        scene.add_material("Gold", pivot_core.Material(**{number: wrong}))
+
+
 def test_an_object_hidden_from_the_camera_still_casts_its_shadow() -> None:
     scene = pivot_core.Scene()
     chalk = scene.add_material("chalk", pivot_core.Material(diffuse=(1, 1, 1)))

@@ -156,6 +156,8 @@ def _nearest() -> None:
     ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (0, 0, 0, 1), (1, 0, 0.5, 1)
     feed(shader("rough_noise", "ShaderNodeBsdfGlossy", Roughness=0.3), "Roughness", "ShaderNodeTexNoise")
     feed(shader("bump", "ShaderNodeBsdfDiffuse", Color=RED), "Normal", "ShaderNodeBump")
+    shader("bubble", "ShaderNodeBsdfPrincipled", IOR=0.5)
+    shader("glass_bubble", "ShaderNodeBsdfGlass", Color=GREEN, IOR=0.5, Roughness=0.5).distribution = "GGX"
     shader("glass", "ShaderNodeBsdfGlass", Color=GREEN, IOR=1.5, Roughness=0.5).distribution = "GGX"
     shader("translucent", "ShaderNodeBsdfTranslucent", Color=GREEN)
     shader("see_through", "ShaderNodeBsdfTransparent")
