@@ -15,7 +15,7 @@ from .export.scene import export_scene
 from .passes import fill_layer, register_passes
 from .progress import Progress
 from .report import RenderError, Reporter
-from .settings import render_settings, sample_count
+from .settings import render_settings, sample_count, setting_values
 from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
@@ -92,7 +92,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
             if self.is_preview:
                 samples, bounces = min(samples, _PREVIEW_SAMPLES), min(bounces, _PREVIEW_BOUNCES)
-            settings = render_settings(context.core, depsgraph.scene, samples, bounces)
+            scene = depsgraph.scene
+            settings = render_settings(context.core, scene, setting_values(scene, samples, bounces))
             self._run(context.core.Session(context.scene, settings), samples, result)
             done = True
         finally:
@@ -107,7 +108,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called whenever the 3D view is drawn, also when only the view has moved."""
         if self.viewport is not None:
-            self.viewport.draw(self, context, depsgraph.scene)
+            self.viewport.draw(self, context, depsgraph)
 
     def _check_cancel(self) -> None:
         if self.test_break():
