@@ -84,13 +84,9 @@ class Viewport:
         self._stop()
         self._scene, self._stale, self._visible = None, False, _visible(depsgraph)
         self._core = core.load()
-        self._warnings = []
-        reporter = Reporter(lambda _, text: self._warnings.append(text), set())
+        reporter = Reporter(_print_warning, self._said)
+        self._warnings = reporter.warnings
         self._scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
-        for text in self._warnings:
-            if text not in self._said:
-                print(f"Warning: {text}", flush=True)
-        self._said.update(self._warnings)
 
     def _take_picture(self, wait_s: float) -> bool:
         """Take over what the session has done within wait_s, and return whether it has ended."""
@@ -158,12 +154,17 @@ def _visible(depsgraph: bpy.types.Depsgraph) -> Any:
     return objects, layer.use_solid, override and override.as_pointer(), world and world.as_pointer()
 
 
+def _print_warning(_: set[str], text: str) -> None:
+    """On the console: RenderEngine.report reaches nobody from the viewport."""
+    print(f"Warning: {text}", flush=True)
+
+
 def _in_short(warnings: list[str]) -> list[str]:
     """What a line in the 3D view has room for."""
     if not warnings:
         return []
-    first, things = warnings[0].removeprefix("Pivot: "), "1 thing is" if len(warnings) == 1 else f"{len(warnings)} are"
-    return [f"{things} not shown as set: {first}"]
+    count = "1 thing is" if len(warnings) == 1 else f"{len(warnings)} things are"
+    return [f"{count} not shown as set: {warnings[0]}"]
 
 
 @contextlib.contextmanager
