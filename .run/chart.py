@@ -12,6 +12,7 @@ import functools
 import importlib
 import os
 import sys
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ import bpy
 import addon_utils
 import flip_evaluator
 import numpy as np
+from fixes import with_fix
 from numpy.typing import NDArray
 
 Floats = NDArray[np.floating]
@@ -102,6 +104,11 @@ def draw_sheet(new_canvas: Any, rows: Sequence[Any], references: dict[str, Any])
     return canvas
 
 
+def is_told(error: Exception) -> bool:
+    """Whether an error says what is wrong with the scene: Blender's of a file or a render, or Pivot's own."""
+    return isinstance(error, RuntimeError) or type(error).__name__ == "RenderError"
+
+
 def main(blend: Path, ladder_name: str, folder: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     for addon in ("cycles", "pivot"):
@@ -142,6 +149,13 @@ if __name__ == "__main__":
     blend, ladder_name, folder = sys.argv[1:]
     Path(folder).mkdir(parents=True, exist_ok=True)
     quiet_blender(Path(folder) / "blender.log")
-    main(Path(blend), ladder_name, Path(folder))
+    status = 0
+    try:
+        main(Path(blend), ladder_name, Path(folder))
+    except Exception as error:
+        if not is_told(error):
+            traceback.print_exc()
+        print(with_fix(str(error)))
+        status = 1
     sys.stdout.flush()
-    os._exit(0)  # some Blenders crash at exit while classes are registered
+    os._exit(status)  # some Blenders crash at exit while classes are registered

@@ -13,7 +13,10 @@ from pathlib import Path
 
 # Steps done and in all: ninja's "[3/40]", Cycles' "Sample 3/64", Pivot's "42 %".
 STEP = re.compile(r"\[(\d+)/(\d+)\]|Fra:(?P<frame>-?\d+) .*?\| (?:Sample (\d+)/(\d+)|Sample \d+ \| (\d+) %)")
-NOISE = re.compile(r"$|Fra:|Blender |Read blend:|Saved: | *Time: |ninja: (no work|Entering|build stopped)|\[|-- ")
+NOISE = re.compile(
+    r"$|Fra:|Blender (\d|quit)|Read blend:|Saved: | *Time: |ninja: (no work|Entering|build stopped)|\[\d+/\d+\]|-- "
+)
+CUT_OFF = re.compile(r"Fra:.*?(?=Error: )")  # a line of progress that an error was printed into
 BAR_WIDTH = 30
 
 
@@ -54,24 +57,52 @@ class Bar:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
+class Messages:
+    """What the person reads beside the bar. An error may have many lines, and is printed once: Blender prints an
+    operator's, and the script that called it once more."""
+
+    def __init__(self) -> None:
+        self.error: list[str] = []  # the lines so far of the error being read
+        self.told: set[tuple[str, ...]] = set()
+
+    def add(self, line: str) -> None:
+        if line.startswith("Error") or (self.error and line.startswith(("Warning", "Wrote "))):
+            self.end_error()
+        if line.startswith("Error") or self.error:
+            self.error.append(line)
+        else:
+            print(line, end="", file=sys.stdout if line.startswith("Wrote ") else sys.stderr, flush=True)
+
+    def end_error(self) -> None:
+        """Print the error being read, which has no more lines."""
+        if tuple(self.error) not in self.told:
+            print(*self.error, sep="", end="", file=sys.stderr, flush=True)
+        self.told.add(tuple(self.error))
+        self.error = []
+
+
 def main(title: str, log_path: str) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the command; this ends with its output
-    bar, frame, errors = Bar(title, 0), None, set()
-    with Path(log_path).open("w") as log:
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # a file's name may be any bytes
+    bar, frame, messages = Bar(title, 0), None, Messages()
+    with Path(log_path).open("w", encoding="utf-8", errors="surrogateescape") as log:
         for line in sys.stdin:
             print(line, end="", file=log, flush=True)
+            line = CUT_OFF.sub("", line)
             found = STEP.match(line)
             step, total = steps(found) if found else (0, 0)
+            if (found and step) or NOISE.match(line):
+                messages.end_error()
             if found and step:
                 if found["frame"] != frame:
                     frame = found["frame"]
                     bar = Bar(f"{title} frame {frame}", step)
                 bar.show(step, total)
-            elif not NOISE.match(line) and line not in errors:
+            elif not NOISE.match(line):
                 bar.clear()
-                print(line, end="", file=sys.stdout if line.startswith("Wrote ") else sys.stderr, flush=True)
-                if line.startswith("Error"):  # Blender prints an operator's error, the script that called it once more
-                    errors.add(line)
+                messages.add(line)
+        messages.end_error()
     bar.clear()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import traceback
 from typing import Any, ClassVar
 
@@ -9,13 +10,15 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import core
-from .export.camera import export_camera, render_frame
+from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
 from .export.scene import export_scene
-from .passes import fill_layer, register_passes
+from .frame_line import FrameCount, frame_line, other_engine_line
+from .memory import check_memory, picture_bytes
+from .passes import channel_count, fill_layer, register_passes
 from .progress import Progress
 from .report import RenderError, Reporter
-from .settings import render_settings, sample_count
+from .settings import render_settings, sample_count, setting_values
 from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
@@ -34,7 +37,10 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     bl_use_preview = True
     bl_use_eevee_viewport = True  # for Material Preview
 
-    said_in_job: ClassVar[set[str]] = set()  # warnings, cleared when a render job begins
+    said_in_job: ClassVar[set[str]] = set()  # warnings, cleared when a job begins; on a terminal, with a new file
+    # Of the frame being rendered, a FrameCount: typing keeps what ClassVar is given, and bpy 4.5 then hangs at exit.
+    frame_count: ClassVar[Any] = FrameCount()
+    strict: ClassVar[bool] = False  # warnings are errors
     viewport: Viewport | None = None  # of the 3D view this engine draws
 
     # Blender 4.4 renders nothing without it, and from 4.5 calls it twice per engine: no state is made here.
@@ -80,6 +86,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         if view:
             self.active_view_set(view)
         frame = render_frame(depsgraph.scene.render, self.resolution_x, self.resolution_y)
+        native = core.load()
+        self._check_memory(native, depsgraph.scene, frame)
         result = self.begin_result(0, 0, *frame.window_size, layer=depsgraph.view_layer.name, view=view)
         done = False
         try:
@@ -87,13 +95,16 @@ class PivotRenderEngine(bpy.types.RenderEngine):
                 self.update_stats("", "Exporting the scene")
                 say = _say_nothing if self.is_preview else self.report
                 reporter = Reporter(say, self.said_in_job)
-                context = export_scene(core.load(), depsgraph, reporter, self._check_cancel)
+                context = export_scene(native, depsgraph, reporter, self._check_cancel)
             export_camera(context, self, frame)
+            if self.strict:
+                context.reporter.refuse()
             samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
             if self.is_preview:
                 samples, bounces = min(samples, _PREVIEW_SAMPLES), min(bounces, _PREVIEW_BOUNCES)
-            settings = render_settings(context.core, depsgraph.scene, samples, bounces)
-            self._run(context.core.Session(context.scene, settings), samples, result)
+            scene = depsgraph.scene
+            settings = render_settings(context.core, scene, setting_values(scene, samples, bounces))
+            self._run(context.core.Session(context.scene, settings), samples, result, context.reporter)
             done = True
         finally:
             self.end_result(result, cancel=not done)
@@ -107,13 +118,20 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called whenever the 3D view is drawn, also when only the view has moved."""
         if self.viewport is not None:
-            self.viewport.draw(self, context, depsgraph.scene)
+            self.viewport.draw(self, context, depsgraph)
+
+    def _check_memory(self, native: Any, scene: bpy.types.Scene, frame: Frame) -> None:
+        """Raise RenderError where the picture cannot fit in memory."""
+        views = len(self._views(scene))
+        channels = [channel_count(layer) for layer in scene.view_layers if layer.use for _ in range(views)]
+        width, height = frame.window_size
+        check_memory(width, height, picture_bytes(width, height, native.Session.bytes_per_pixel, channels))
 
     def _check_cancel(self) -> None:
         if self.test_break():
             raise _Cancelled
 
-    def _run(self, session: Any, samples: int, result: Any) -> None:
+    def _run(self, session: Any, samples: int, result: Any, reporter: Reporter) -> None:
         """Render to the end, showing progress and, in the interface, the picture. Raises _Cancelled."""
         progress = Progress(self, samples)
         shown_s = 0.0
@@ -135,7 +153,12 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         progress.show(session, last=True)
         show()
         for sample in session.bad_samples:
-            self.report({"WARNING"}, f"Pivot: a sample was not finite and was left out: {sample}")
+            reporter.warn(f"a sample was not finite and was left out: {sample}")
+        if self.strict:
+            reporter.refuse()
+        self.frame_count.samples = max(self.frame_count.samples, samples)
+        self.frame_count.samples_done.append(session.samples_done)
+        self.frame_count.warnings.update(reporter.warnings)
 
 
 def _say_nothing(level: set[str], text: str) -> None:
@@ -143,15 +166,48 @@ def _say_nothing(level: set[str], text: str) -> None:
 
 
 @persistent
-def _forget_warnings(*_: Any) -> None:
+def _job_begins(scene: bpy.types.Scene, *_: Any) -> None:
+    if bpy.app.background:  # there a frame is a job of its own: warnings are once a run, which is a file's
+        line = other_engine_line(scene, sys.argv)
+        if line is not None and line not in PivotRenderEngine.said_in_job:
+            PivotRenderEngine.said_in_job.add(line)
+            print(line, flush=True)
+    else:
+        PivotRenderEngine.said_in_job.clear()
+
+
+@persistent
+def _file_loaded(*_: Any) -> None:
     PivotRenderEngine.said_in_job.clear()
+
+
+@persistent
+def _frame_begins(*_: Any) -> None:
+    PivotRenderEngine.frame_count = FrameCount()
+
+
+@persistent
+def _frame_ended(scene: bpy.types.Scene, *_: Any) -> None:
+    count = PivotRenderEngine.frame_count
+    if bpy.app.background and count.samples_done:  # none where another engine rendered, or this one failed
+        print(frame_line(scene, count), flush=True)
+
+
+_HANDLERS = {
+    "render_init": _job_begins,
+    "load_post": _file_loaded,
+    "render_pre": _frame_begins,
+    "render_post": _frame_ended,
+}
 
 
 def register() -> None:
     bpy.utils.register_class(PivotRenderEngine)
-    bpy.app.handlers.render_init.append(_forget_warnings)
+    for event, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, event).append(handler)
 
 
 def unregister() -> None:
-    bpy.app.handlers.render_init.remove(_forget_warnings)
+    for event, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, event).remove(handler)
     bpy.utils.unregister_class(PivotRenderEngine)

@@ -49,6 +49,11 @@ def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view
             )
 
 
+def channel_count(view_layer: bpy.types.ViewLayer) -> int:
+    """Channels of all passes that this view layer gets."""
+    return sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
+
+
 def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArray[np.float32]]) -> None:
     """Write what has been rendered into every pass of a bpy.types.RenderLayer.
 

@@ -20,17 +20,29 @@ def naming(thing: str, fix: str) -> Iterator[None]:
 
 
 class Reporter:
-    """Warnings of one render job, each said once however many objects, layers and frames meet it.
+    """Warnings of one view layer's export and render, each once however many objects meet it.
 
-    say: takes (level, text), as `RenderEngine.report` does: ({'WARNING'}, "...").
-    said: the texts said so far in the job; shared by its engines.
+    say: takes (level, text), as `RenderEngine.report` does: ({'WARNING'}, "..."), what was not said before.
+    said: the texts said so far in the run; shared by its layers and frames.
     """
 
     def __init__(self, say: Callable[[set[str], str], None], said: set[str]) -> None:
+        self.warnings: list[str] = []
         self._say = say
         self._said = said
 
     def warn(self, text: str) -> None:
+        if text not in self.warnings:
+            self.warnings.append(text)
         if text not in self._said:
             self._said.add(text)
             self._say({"WARNING"}, f"Pivot: {text}")
+
+    def refuse(self) -> None:
+        """Raise RenderError if there were warnings, which a strict render takes for errors."""
+        if self.warnings:
+            count = f"{len(self.warnings)} warnings" if len(self.warnings) > 1 else "1 warning"
+            raise RenderError(
+                f"{count}, which a strict render takes for errors: {'; '.join(self.warnings)}. "
+                "Fix: change what they name, or render without --strict"
+            )

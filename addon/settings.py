@@ -14,22 +14,27 @@ def sample_count(depsgraph: bpy.types.Depsgraph) -> int:
     return depsgraph.view_layer.samples or depsgraph.scene.pivot.samples
 
 
-def render_settings(native: Any, scene: bpy.types.Scene, samples: int, max_bounces: int) -> Any:
-    """pivot_core.RenderSettings, the samples and bounces as given. Raises RenderError where the core refuses them."""
+def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> dict[str, Any]:
+    """The arguments of pivot_core.RenderSettings, the samples and bounces as given."""
     pivot = scene.pivot
+    return {
+        "integrator": pivot.integrator,
+        "samples": samples,
+        "adaptive": pivot.adaptive,
+        "seed": pivot.seed,
+        "max_bounces": max_bounces,
+        "light_sampling": pivot.light_sampling,
+        "error_budget_percent": pivot.error_budget,
+        "analytic_method": pivot.analytic_method,
+        "occlusion": pivot.occlusion,
+        "time_limit_s": pivot.time_limit,
+        "threads": scene.render.threads,
+        "filter_width_px": 2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it
+        "transparent_film": scene.render.film_transparent,
+    }
+
+
+def render_settings(native: Any, scene: bpy.types.Scene, values: dict[str, Any]) -> Any:
+    """pivot_core.RenderSettings of the scene's setting_values. Raises RenderError where the core refuses them."""
     with naming(f"scene '{scene.name}', render settings", "set it in scene.pivot"):
-        return native.RenderSettings(
-            integrator=pivot.integrator,
-            samples=samples,
-            adaptive=pivot.adaptive,
-            seed=pivot.seed,
-            max_bounces=max_bounces,
-            light_sampling=pivot.light_sampling,
-            error_budget_percent=pivot.error_budget,
-            analytic_method=pivot.analytic_method,
-            occlusion=pivot.occlusion,
-            time_limit_s=pivot.time_limit,
-            threads=scene.render.threads,
-            filter_width_px=2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it
-            transparent_film=scene.render.film_transparent,
-        )
+        return native.RenderSettings(**values)

@@ -15,77 +15,106 @@ from . import core
 from .export.camera import RegionView, region_view
 from .export.scene import export_scene
 from .report import RenderError, Reporter
-from .settings import render_settings, sample_count
+from .settings import render_settings, sample_count, setting_values
 
 _REDRAW_S = 0.1
 _COARSE_PX = 4  # edge of a pixel of the first picture
 _COARSE_SAMPLES = 2
+_COARSE_WAIT_S = 0.05  # a draw waits this long for a coarse picture, so that it shows its own view
 _LARGEST_HALF = 65504.0
 
 
 class Viewport:
     """What one 3D view renders. An edit exports the scene again; a move of the view only restarts the samples.
 
+    A coarse picture is never stopped before it can be shown, so there are pictures while things move without pause.
     It keeps no reference to its engine: the two are freed together, and with them the threads.
     """
 
     def __init__(self) -> None:
-        self._said: set[str] = set()  # warnings
+        self._said: set[str] = set()  # warnings on the console
+        self._warnings: list[str] = []  # of the scene as exported
+        self._stale = True  # the scene has changed since
+        self._visible: Any = None  # of the scene as exported
         self._core: Any = None
         self._scene: Any = None  # pivot_core.Scene; None before the first export and after a fault
-        self._settings: dict[int, Any] = {}  # pivot_core.RenderSettings by the edge of a pixel
-        self._samples = 0
         self._session: Any = None
         self._pixel_px = 1  # of the session
-        self._size = (0, 0)
-        self._view: RegionView | None = None  # of the session
+        self._size = (0, 0)  # of what the session shows, as are the next two
+        self._view: RegionView | None = None
+        self._settings: dict[str, Any] = {}
         self._texture: Any = None  # the last picture
 
     def update(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
-        """Take over the scene after an edit."""
-        self._stop()
-        self._scene, self._view = None, None
-        with _faults_shown(engine):
-            self._core = core.load()
-            reporter = Reporter(engine.report, self._said)
-            scene, self._samples = depsgraph.scene, sample_count(depsgraph)
-            self._settings = {
-                pixel_px: render_settings(self._core, scene, samples, scene.pivot.max_bounces)
-                for pixel_px, samples in ((1, self._samples), (_COARSE_PX, min(self._samples, _COARSE_SAMPLES)))
-            }
-            self._scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
+        """Take notice of an edit. The next draw exports it, once there is a picture of the edit before."""
+        if any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph) != self._visible:
+            self._stale = True
         engine.tag_redraw()
 
-    def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, scene: bpy.types.Scene) -> None:
+    def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Draw the picture as it stands, and see that it gets better."""
-        if self._scene is None:
-            return
         with _faults_shown(engine):
+            finished = self._take_picture(0.0)
+            scene = depsgraph.scene
             size = (context.region.width, context.region.height)
-            view = region_view(context.region_data, context.space_data)
-            if size != self._size or not view.same_as(self._view):
-                self._size, self._view = size, view
-                self._start(_COARSE_PX, size, view)
-            finished = self._session.wait(0.0)
-            if self._session.samples_done > 0:
-                self._texture = _texture(self._session.read("Combined"))
-            if finished and self._pixel_px > 1:
-                self._start(1, size, view)
-                finished = False
+            if not self._awaits_coarse_picture(finished):
+                if self._stale:
+                    self._export(depsgraph)
+                if self._scene is None:
+                    return
+                view = region_view(context.region_data, context.space_data)
+                settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
+                if self._session is None or not self._shows(size, view, settings):
+                    self._size, self._view, self._settings = size, view, settings
+                    self._start(scene, _COARSE_PX)
+                    self._take_picture(_COARSE_WAIT_S)
+                    finished = False
+                elif finished and self._pixel_px > 1:
+                    self._start(scene, 1)
+                    finished = False
             if self._texture is not None:
                 _draw_texture(engine, scene, self._texture, size)
-            samples = f"Sample {self._session.samples_done}/{self._samples}"
-            engine.update_stats("Pivot", "Finished" if finished else samples)
+            samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
+            engine.update_stats("Pivot", " | ".join(["Finished" if finished else samples, *_in_short(self._warnings)]))
             if not finished:
                 _redraw_soon(engine)
 
-    def _start(self, pixel_px: int, size: tuple[int, int], view: RegionView) -> None:
+    def _export(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Take over the scene, and say on the console what of it is left out."""
         self._stop()
-        width, height = (max(1, side // pixel_px) for side in size)
+        self._scene, self._stale, self._visible = None, False, _visible(depsgraph)
+        self._core = core.load()
+        reporter = Reporter(_print_warning, self._said)
+        self._warnings = reporter.warnings
+        self._scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
+
+    def _take_picture(self, wait_s: float) -> bool:
+        """Take over what the session has done within wait_s, and return whether it has ended."""
+        if self._session is None:
+            return False
+        finished = self._session.wait(wait_s)
+        if self._session.samples_done > 0:
+            self._texture = _texture(self._session.read("Combined"))
+        return finished
+
+    def _awaits_coarse_picture(self, finished: bool) -> bool:
+        return self._session is not None and self._pixel_px > 1 and not finished and self._session.samples_done == 0
+
+    def _shows(self, size: tuple[int, int], view: RegionView, settings: dict[str, Any]) -> bool:
+        """Whether the session is of this view."""
+        return (size, settings) == (self._size, self._settings) and view.same_as(self._view)
+
+    def _start(self, scene: bpy.types.Scene, pixel_px: int) -> None:
+        """Begin a session. pixel_px: the edge of its pixels."""
+        self._stop()
+        view, settings = self._view, self._settings
+        width, height = (max(1, side // pixel_px) for side in self._size)
         self._scene.set_camera(
             view.camera_to_world, view.view_plane, width, height, (0, 0, width, height), *view.clip_m
         )
-        self._session = self._core.Session(self._scene, self._settings[pixel_px])
+        if pixel_px > 1:
+            settings = settings | {"samples": min(settings["samples"], _COARSE_SAMPLES)}
+        self._session = self._core.Session(self._scene, render_settings(self._core, scene, settings))
         self._session.start()
         self._pixel_px = pixel_px
 
@@ -93,6 +122,49 @@ class Viewport:
         if self._session is not None:
             self._session.stop()
             self._session = None
+
+
+def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
+    """Selecting, renaming an object and the like come as updates that say of no part that it changed.
+
+    So does a value in a light's nodes, of the light; and a hidden object, of the scene: see _visible.
+    """
+    if isinstance(update.id, (bpy.types.Light, bpy.types.World)):
+        return True
+    if isinstance(update.id, bpy.types.Camera) or (
+        isinstance(update.id, bpy.types.Object) and update.id.type == "CAMERA"
+    ):
+        return False  # each draw reads the 3D view's own
+    return update.is_updated_geometry or update.is_updated_transform or update.is_updated_shading
+
+
+def _visible(depsgraph: bpy.types.Depsgraph) -> Any:
+    """What an export depends on and updates do not tell from a selection."""
+    layer, world = depsgraph.view_layer, depsgraph.scene.world
+    objects = [
+        (
+            visible.original.as_pointer(),
+            visible.is_holdout,
+            visible.original.holdout_get(view_layer=layer),
+            visible.original.indirect_only_get(view_layer=layer),
+        )
+        for visible in depsgraph.objects
+    ]
+    override = layer.material_override
+    return objects, layer.use_solid, override and override.as_pointer(), world and world.as_pointer()
+
+
+def _print_warning(_: set[str], text: str) -> None:
+    """On the console: RenderEngine.report reaches nobody from the viewport."""
+    print(f"Warning: {text}", flush=True)
+
+
+def _in_short(warnings: list[str]) -> list[str]:
+    """What a line in the 3D view has room for."""
+    if not warnings:
+        return []
+    count = "1 thing is" if len(warnings) == 1 else f"{len(warnings)} things are"
+    return [f"{count} not shown as set: {warnings[0]}"]
 
 
 @contextlib.contextmanager

@@ -79,6 +79,9 @@ void register_render(py::module_& module) {
         .def_property_readonly("samples_done", &Session::samples_done, "Samples complete over the whole window.")
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
+        .def_property_readonly_static(
+            "bytes_per_pixel", [](const py::object&) { return sizeof(Pixel) + sizeof(Pilot) + sizeof(std::uint32_t); },
+            "What a session allocates for each pixel of its window, the counts of adaptive sampling included.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def("read", &read, py::arg("pass_name"),

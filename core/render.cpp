@@ -209,7 +209,7 @@ std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint3
         pixel.count += 1;
         if (is_finite(samples[i])) {
             add(pixel.sum, samples[i]);
-            pixel.sum_of_squares += sqr(mean_component(samples[i].radiance));
+            if (analytic) pixel.sum_of_squares += sqr(mean_component(samples[i].radiance));
         } else {
             report_bad_sample(frame_x0 + static_cast<int>(planned[i].pixel), frame_y, rays[i]);
         }

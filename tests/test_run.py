@@ -8,10 +8,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import OpenEXR
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / ".run"))
+import whole_picture  # noqa: E402
+
 RUN = ROOT / "run"
 SCENE = ROOT / "tests/scenes/default/default.blend"
 QUICK = (
@@ -64,10 +68,14 @@ def test_bare_prints_help() -> None:
     [
         (("rendre",), "no such command: rendre"),
         (("render", "nowhere.blend"), "no such file: nowhere.blend"),
-        (("render", "run", "-f", "1"), "options come after --"),
+        (("render", SCENE, "-f", "1"), "options come after --"),
         (("render", "--", "-f"), "-f needs a frame"),
         (("chart", "nowhere.blend"), "no such file: nowhere.blend"),
         (("chart", "a.blend", "b.blend"), "chart takes one file"),
+        (("chart", "README.md"), "this is no .blend file: README.md. Save one in Blender"),
+        (("render", "README.md"), "this is no .blend file: README.md. Save one in Blender"),
+        (("render", "/dev/null"), "no such file: /dev/null"),
+        (("render", "--strict", "tests"), "this is a folder: tests. Name the .blend in it"),
     ],
 )
 def test_a_mistake_gets_one_line(arguments: tuple[str, ...], error: str) -> None:
@@ -105,12 +113,106 @@ def test_frames_are_numbered(tmp_path: Path, scene: Path) -> None:
     assert "frame 8 100%" in ran.stderr
 
 
-def test_a_failed_render_says_why_and_writes_nothing(tmp_path: Path, scene: Path) -> None:
-    ran = run("render", scene, "--", "--python-expr", "import bpy; bpy.context.scene.camera = None", cwd=tmp_path)
+NO_CAMERA = "import bpy; [bpy.data.objects.remove(o) for o in list(bpy.data.objects) if o.type == 'CAMERA']"
+TOO_SMALL = "import bpy; r = bpy.context.scene.render; r.use_border = True; r.border_max_x = 1e-4"
+
+
+@pytest.mark.parametrize(
+    ("fault", "error"),
+    [
+        (NO_CAMERA, "Error: Cannot render, no camera. Fix: add one to the scene"),
+        (
+            TOO_SMALL,
+            "Error: Image too small. Fix: raise the resolution or its percentage, or draw a larger render region",
+        ),
+    ],
+)
+def test_a_failed_render_says_why_and_writes_nothing(tmp_path: Path, scene: Path, fault: str, error: str) -> None:
+    ran = run("render", scene, "--", "--python-expr", fault, cwd=tmp_path)
     assert ran.returncode != 0
-    assert "camera" in ran.stderr
+    assert ran.stderr.splitlines()[-2].startswith(error)
     assert ran.stderr.splitlines()[-1].startswith("run: rendering failed")
     assert names(tmp_path) == ["my scenes"]
+
+
+def test_a_file_cut_off_is_said_in_a_line(tmp_path: Path) -> None:
+    (tmp_path / "cut.blend").write_bytes(SCENE.read_bytes()[:200_000])
+    rendered = run("render", "cut.blend", cwd=tmp_path)
+    assert rendered.returncode != 0
+    assert "cut.blend is cut off or damaged: copy it again" in rendered.stderr.splitlines()[-1]
+    charted = run("chart", "cut.blend", cwd=tmp_path)
+    assert charted.returncode != 0
+    assert "Fix: the file is cut off: copy it again" in charted.stderr.splitlines()[-2]
+    assert "Traceback" not in charted.stderr
+    assert names(tmp_path) == ["cut.blend"]
+
+
+def test_chart_without_a_camera_says_so_in_a_line(tmp_path: Path) -> None:
+    bare = f"{NO_CAMERA}; bpy.ops.wm.save_as_mainfile(filepath='{tmp_path}/bare.blend')"
+    assert run("blender", "-b", "--python-exit-code", "1", "--python-expr", bare).returncode == 0
+    ran = run("chart", "bare.blend", cwd=tmp_path)
+    assert ran.returncode != 0
+    assert ran.stderr.splitlines()[-2] == (
+        "Error: Cannot render, no camera. Fix: add one to the scene (Add > Camera) and save the file"
+    )
+    assert "Traceback" not in ran.stderr
+
+
+OUT_OF_FOCUS = f"{QUICK}; s.camera.data.dof.use_dof = True"
+
+
+def test_a_frame_ends_with_what_it_took_and_warnings_come_once_a_run(tmp_path: Path, scene: Path) -> None:
+    ran = run("render", scene, "--", "--python-expr", OUT_OF_FOCUS, "-a", cwd=tmp_path)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert ran.stderr.count("depth of field") == 1
+    took = r" \| Monte Carlo \| 1 sample \| [\d.]+ s \| [\d.]+ s CPU \| (\d+) MB peak \| 1 warning$"
+    peaks_mb = [re.search(rf"^Pivot \| Frame {frame}{took}", ran.stderr, re.MULTILINE) for frame in (7, 8)]
+    assert all(peak and 50 < int(peak[1]) < 5000 for peak in peaks_mb), ran.stderr
+
+
+def test_strict_takes_warnings_for_errors(tmp_path: Path, scene: Path) -> None:
+    ran = run("render", "--strict", scene, "--", "--python-expr", OUT_OF_FOCUS, cwd=tmp_path)
+    assert ran.returncode != 0
+    assert "Warning: Pivot: camera 'camera': depth of field" in ran.stderr
+    assert "Error: Pivot: 1 warning, which a strict render takes for errors: camera 'camera'" in ran.stderr
+    assert names(tmp_path) == ["my scenes"]
+    clean = run("render", "--strict", scene, "--", "--python-expr", QUICK, cwd=tmp_path)
+    assert clean.returncode == 0, clean.stderr
+    assert names(tmp_path) == ["my scenes", "still life 1.2.exr", "still life 1.2.png"]
+
+
+def test_a_full_disk_leaves_no_half_of_a_picture(tmp_path: Path, scene: Path) -> None:
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mounted = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=40k", "tmpfs", disk], capture_output=True, check=False
+    )
+    if mounted.returncode:
+        pytest.skip("only root mounts a small disk")
+    try:
+        ran = run("render", scene, "--", "--python-expr", QUICK, cwd=disk)
+        left = names(disk)
+    finally:
+        subprocess.run(["umount", disk], check=True)
+    assert ran.returncode != 0
+    assert left == []
+    assert f"exr could not be written: 0.0 MB are free on the disk at {disk}. Fix: " in ran.stderr.splitlines()[-2]
+
+
+@pytest.mark.parametrize("suffix", [".exr", ".png"])
+def test_a_picture_cut_anywhere_is_not_whole(suffix: str, tmp_path: Path) -> None:
+    whole = tmp_path / f"picture{suffix}"
+    rng = np.random.default_rng(1)
+    if suffix == ".exr":
+        pixels = {"RGB": rng.random((40, 30, 3), dtype=np.float32)}
+        OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, pixels).write(str(whole))
+    else:
+        shutil.copy(ROOT / "tests/scenes/default/default.png", whole)
+    data = whole.read_bytes()
+    assert whole_picture.is_whole(whole)
+    for size in (0, 4, 100, len(data) // 2, len(data) - 1):
+        whole.write_bytes(data[:size])
+        assert not whole_picture.is_whole(whole)
 
 
 def test_chart_writes_table_chart_and_sheet_and_keeps_what_it_rendered(scene: Path) -> None:
@@ -153,8 +255,16 @@ def test_blender_renders_with_pivot(tmp_path: Path, scene: Path) -> None:
     ran = run("blender", "-b", scene, *expr, "-E", "PIVOT", "-o", tmp_path / "out_#", "-f", "1")
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert png_size(tmp_path / "out_1.png") == (96, 54)
+    assert "Pivot | Frame 1 | Monte Carlo | 1 sample | " in ran.stdout
     assert "Sample " in ran.stdout  # Cycles says "Sample n/m" of a scene, Pivot does not
     assert "ViewLayer" not in ran.stdout
+
+
+def test_blender_says_when_another_engine_renders(tmp_path: Path, scene: Path) -> None:
+    """Blender takes -E for nothing after -f, and says nothing."""
+    expr = ("--python-expr", f"{QUICK}; s.render.engine = 'BLENDER_WORKBENCH'; s.frame_end = 7")
+    ran = run("blender", "-b", scene, *expr, "-o", tmp_path / "out_#", "-a", "-E", "PIVOT")
+    assert "is rendered by BLENDER_WORKBENCH, not by Pivot. Fix: put -E PIVOT after the .blend" in ran.stdout
 
 
 def test_python_imports_core_addon_and_blender() -> None:
@@ -217,6 +327,34 @@ def test_progress_reads_ninja_pivot_and_cycles(tmp_path: Path) -> None:
     assert ran.stderr.splitlines() == shown
     assert ran.stdout == "Wrote x.png\n"
     assert (tmp_path / "log").read_text().splitlines() == [*lines, "Wrote x.png"]
+
+
+def test_progress_keeps_errors_whole(tmp_path: Path) -> None:
+    lines = [
+        "Error: Python: Traceback (most recent call last):",
+        "  first",
+        "[1, 2] is part of it",
+        "Fra:5 Mem:1.00M (Peak 2.00M) | Exporting",
+        "Error: Python: Traceback (most recent call last):",
+        "  second",
+        "",
+        "Error: Python: Traceback (most recent call last):",
+        "  second",
+        "Fra:5 Mem:1.00M (PeakError: printed into a line",
+        "Blender cannot do this",
+        "Error: " + "long " * 2000,
+    ]
+    ran = progress(tmp_path, lines)
+    shown = [*lines[:3], *lines[4:6], "Error: printed into a line", *lines[10:]]
+    assert ran.stderr.splitlines() == shown
+
+
+def test_progress_takes_any_bytes(tmp_path: Path) -> None:
+    command = [sys.executable, ROOT / ".run/progress.py", "Working", tmp_path / "log"]
+    line = b"Error: no such file: caf\xe9.blend\n"
+    ran = subprocess.run(command, input=line, capture_output=True, check=True)
+    assert ran.stderr == line
+    assert (tmp_path / "log").read_bytes() == line
 
 
 def test_progress_off_a_terminal_is_sparse(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ struct CenterSample {
 struct Pixel {
     Sample sum{.alpha = 0.0f};
     CenterSample center;
-    float sum_of_squares = 0.0f;  ///< of the samples' mean radiance over colours
+    float sum_of_squares = 0.0f;  ///< analytic: of the samples' mean radiance over colours
     std::uint32_t count = 0;
 
     /// What a sum is multiplied by for its mean; 0 without samples.

@@ -21,6 +21,7 @@ NAMES = {
     "panoramic": "camera 'Camera' is panoramic",
     "not_a_camera": "object 'ground'",
     "samples": "samples must be at least 1",
+    "too_large": "a picture of 60000 x 60000 pixels takes 5",  # hundred and some GB
 }
 
 
@@ -60,6 +61,19 @@ def test_missing_core_names_its_fix(cases: Any) -> None:
 def test_out_of_memory_is_said(cases: Any) -> None:
     assert "out of memory. Fix: " in cases["memory"]["error"]
     assert not cases["memory"]["picture"]
+
+
+def test_the_memory_a_picture_takes_is_known_before(host: Host, tmp_path: Path) -> None:
+    result = host.run("memory_case", tmp_path)
+    assert 0.75 < result["taken"] / result["estimate"] < 1.1
+    assert 1e8 < result["available"] < 1e14
+    assert result["limited"] == 55e6
+
+
+def test_strict_takes_warnings_for_errors(cases: Any) -> None:
+    assert "1 warning, which a strict render takes for errors: camera 'Camera'" in cases["strict"]["error"]
+    assert not cases["strict"]["picture"]
+    assert cases["strict_without_warnings"] == {"error": None, "picture": True}
 
 
 def test_ctrl_c_ends_a_render_at_once(host: Host, tmp_path: Path) -> None:

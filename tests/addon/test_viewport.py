@@ -6,24 +6,57 @@ import json
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from blender_host import INSIDE, environment
 
 COMMANDS = [shutil.which(name) for name in ("xvfb-run", "blender")]
+pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a Blender with a window")
 
 
-@pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a Blender with a window")
-def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
+def in_a_window(script: str, folder: Path) -> Any:
+    """What inside/<script>.py, which quits its Blender, wrote to folder/result.json; its output is in folder/output."""
     screen = ["-a", "-s", "-screen 0 1280x800x24"]
     blender = ["--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
-    script = [str(INSIDE / "viewport_case.py"), "--", str(tmp_path)]
-    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, *script]
-    done = subprocess.run(command, env=environment(tmp_path), capture_output=True, text=True, timeout=150, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    _, red, green, blue, red_again, analytic, _, lit, *_ = json.loads((tmp_path / "result.json").read_text())
+    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder)]
+    done = subprocess.run(command, env=environment(folder), capture_output=True, text=True, timeout=150, check=False)
+    output = done.stdout + done.stderr
+    (folder / "output").write_text(output)
+    assert done.returncode == 0, output
+    assert "Traceback" not in output, output
+    return json.loads((folder / "result.json").read_text())
+
+
+def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
+    _, red, green, blue, red_again, analytic, _, lit, *_ = in_a_window("viewport_case", tmp_path)
     np.testing.assert_array_equal(
         np.round([red, green, blue, red_again, analytic, lit]), [*np.eye(3), *[(1, 0, 0)] * 2, (0, 1, 0)]
     )
-    assert "Traceback" not in done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def motion(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    folder = tmp_path_factory.mktemp("motion")
+    return in_a_window("viewport_motion_case", folder) | {"output": (folder / "output").read_text()}
+
+
+@pytest.mark.parametrize("what", ["orbit", "drag"])
+def test_pictures_of_now_are_shown_while_things_move(motion: Any, what: str) -> None:
+    seen = motion[what]
+    assert seen["draws"] >= 10
+    assert len(seen["pictures"]) >= seen["draws"] / 3
+    assert set(seen["pictures"]) <= {0, 1, 2}  # draws ago
+
+
+def test_what_changes_no_picture_restarts_nothing(motion: Any) -> None:
+    assert motion["idle"]["sessions"] == 0
+    assert motion["hidden"]["sessions"] > 0
+
+
+def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: Any) -> None:
+    assert motion["text"] == [
+        "1 thing is not shown as set: light 'fill': lights without shadows are not supported, it casts them"
+    ]
+    assert motion["output"].count("Warning: Pivot: light 'fill'") == 1

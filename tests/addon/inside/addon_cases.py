@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -53,10 +52,14 @@ def _toggled() -> Any:
         "engine": hasattr(bpy.types, "PivotRenderEngine"),
         "panels": [p.__name__ for p in _panels() if p.__name__.startswith("PIVOT_")],
         "opted_in": [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())],
-        "handlers": [h.__module__ for h in bpy.app.handlers.render_init if h.__module__.startswith("pivot")],
+        "handlers": [
+            name
+            for name in ("render_init", "render_pre", "render_post", "load_post")
+            for handler in getattr(bpy.app.handlers, name)
+            if handler.__module__.startswith("pivot")
+        ],
     }
     addon_utils.enable("pivot")
-    sys.modules["pivot.engine"].PivotRenderEngine.said_in_job.clear()
     parts.clear()
     parts.camera()
     opted_in = [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())]

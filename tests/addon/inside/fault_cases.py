@@ -15,7 +15,13 @@ NAN = float("nan")
 
 def main(folder: Path) -> Any:
     faults = {name: _fault(fault, folder / f"{name}.png") for name, fault in FAULTS.items()}
-    return {"faults": faults, "missing_core": _missing_core(folder), "memory": _memory(folder)}
+    return {
+        "faults": faults,
+        "missing_core": _missing_core(folder),
+        "memory": _memory(folder),
+        "strict": _strict(folder, use_dof=True),
+        "strict_without_warnings": _strict(folder, use_dof=False),
+    }
 
 
 def scene() -> None:
@@ -71,6 +77,10 @@ def _samples() -> None:
         bpy.context.scene.pivot["samples"] = -3
 
 
+def _too_large() -> None:
+    parts.size(60000, 60000)
+
+
 FAULTS = {
     fault.__name__.lstrip("_"): fault
     for fault in (
@@ -84,6 +94,7 @@ FAULTS = {
         _panoramic,
         _not_a_camera,
         _samples,
+        _too_large,
     )
 }
 
@@ -109,6 +120,13 @@ def _missing_core(folder: Path) -> Any:
     scene()
     with patch.dict(sys.modules, pivot_core=None):
         return render(folder / "missing_core.png")
+
+
+def _strict(folder: Path, use_dof: bool) -> Any:
+    scene()
+    bpy.context.scene.camera.data.dof.use_dof = use_dof
+    with patch.object(sys.modules["pivot.engine"].PivotRenderEngine, "strict", True):
+        return render(folder / f"strict_{use_dof}.png")
 
 
 def _memory(folder: Path) -> Any:

@@ -170,6 +170,7 @@ class Scene:
 
 
 class Session:
+    bytes_per_pixel = 88
     progress = 1.0
     bad_samples: tuple[str, ...] = ()
 
@@ -215,6 +216,7 @@ def _in_place_of_the_core() -> Iterator[None]:
 def record(**operator_arguments: Any) -> Recording:
     """Render the scene and return what the addon handed over."""
     _recordings.append(Recording())
+    sys.modules["pivot.engine"].PivotRenderEngine.said_in_job.clear()
     bpy.context.scene.render.engine = "PIVOT"
     with _in_place_of_the_core():
         bpy.ops.render.render(**operator_arguments)
