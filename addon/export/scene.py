@@ -15,7 +15,7 @@ from ..report import RenderError, Reporter, naming
 from .context import Context
 from .light import export_light
 from .material import MaterialTable
-from .mesh import MeshArrays, mesh_arrays
+from .mesh import MeshArrays, edits_applied, mesh_arrays
 from .world import export_world
 
 # Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
@@ -105,7 +105,9 @@ class _Exporter:
         """The core's mesh of an object's evaluated mesh."""
         key = blender_object.data.as_pointer()
         if key not in self._meshes:
-            self._meshes[key] = self._add_mesh(blender_object.name, mesh_arrays(blender_object.data))
+            with edits_applied(blender_object) as mesh:
+                arrays = mesh_arrays(mesh)
+            self._meshes[key] = self._add_mesh(blender_object.name, arrays)
         return self._meshes[key]
 
     def _add_mesh(self, name: str, arrays: MeshArrays | None) -> int | None:
