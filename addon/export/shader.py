@@ -12,7 +12,8 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from .nodes import MID_GREY, Colour, Owner, Socket, colour, is_constant, is_linked, number, output_surface, source
+from .colour import Colour
+from .nodes import MID_GREY, Owner, Socket, colour, is_constant, is_linked, number, output_surface, source
 from .surface import Surface, added
 
 GREY = Surface(diffuse=np.full(3, 0.8))  # Cycles' for objects without a material
@@ -40,7 +41,11 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
 def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Colour:
     """(3,): the colour and strength that a light's or world's node tree multiplies its light with."""
     output = output_surface(tree)
-    surface = None if output is None else _shader(output, owner)
+    try:
+        surface = None if output is None else _shader(output, owner)
+    except RecursionError:
+        owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is black")
+        return np.zeros(3)
     return np.zeros(3) if surface is None else surface.emission
 
 
