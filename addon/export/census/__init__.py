@@ -9,12 +9,15 @@ from . import table
 from .camera import CAMERA
 from .light import LIGHT
 from .material import MATERIAL
+from .node import INPUTS, NODE
 from .object import OBJECT
 from .scene import SCENE
 from .table import Table
 from .world import WORLD
 
-TABLES: dict[str, Table] = OBJECT | LIGHT | WORLD | CAMERA | MATERIAL | SCENE
+__all__ = ["INPUTS", "TABLES", "report_left_out"]
+
+TABLES: dict[str, Table] = OBJECT | LIGHT | WORLD | CAMERA | MATERIAL | NODE | SCENE
 
 
 def report_left_out(data: Any, owner: str, reporter: Reporter) -> None:

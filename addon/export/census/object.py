@@ -20,6 +20,11 @@ def _without_strands(particle_systems: Any) -> bool:
     return not any(each.type == "HAIR" and each.render_type == "PATH" for each in settings)
 
 
+def _is_not_adaptive(modifiers: Any) -> bool:
+    """Adaptive subdivision is the modifier's from Blender 5.0, before that the object's."""
+    return not any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in modifiers)
+
+
 OBJECT = {
     "ID": Table(
         used="name original",
@@ -51,6 +56,9 @@ OBJECT = {
             LeftOut("is_holdout", False, "it is shown as it is", when=_is_surface),
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
             LeftOut("particle_systems", _without_strands, "they are left out", what="Hair strands are"),
+            LeftOut(
+                "modifiers", _is_not_adaptive, "it is as fine as its modifier says", what="Adaptive subdivision is"
+            ),
             LeftOut("shadow_terminator_normal_offset", 0.0, "shadows begin where they do without"),
             LeftOut("shadow_terminator_shading_offset", 0.0, "shadows begin where they do without"),
         ),
@@ -76,7 +84,9 @@ OBJECT = {
     ),
     "CyclesObjectSettings": Table(
         left_out=(
-            LeftOut("use_adaptive_subdivision", False, "it is as fine as its modifier says"),
+            LeftOut(
+                "use_adaptive_subdivision", False, "it is as fine as its modifier says", what="Adaptive subdivision is"
+            ),
             LeftOut("shadow_terminator_offset", 0.0, "shadows begin where they do without"),
         ),
         # Motion blur and culling are reported with the scene that turns them on.

@@ -37,10 +37,11 @@ class Table:
     def names(self) -> dict[str, str]:
         """Each property named, with the Blender version it is marked with or ""."""
         listed = f"{self.used} {self.parts} {self.no_meaning}".split() + [row.name for row in self.left_out]
-        return dict(_split_mark(entry) for entry in listed)
+        return dict(split_mark(entry) for entry in listed)
 
 
-def _split_mark(entry: str) -> tuple[str, str]:
+def split_mark(entry: str) -> tuple[str, str]:
+    """A name and the Blender version it is marked with, or ""."""
     name, _, version = entry.partition("@")
     return name, version
 
@@ -59,7 +60,7 @@ def report_left_out(data: Any, owner: str, reporter: Reporter, tables: Mapping[s
     while kind is not None:
         table = tables.get(kind.identifier, Table())
         for row in table.left_out:
-            name, _ = _split_mark(row.name)
+            name, _ = split_mark(row.name)
             if name in rna.properties and row.when(data) and not _is_neutral(getattr(data, name), row.neutral):
                 what = row.what or f"{rna.properties[name].name} is"
                 reporter.warn(f"{owner}: {what} not supported, {row.instead}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -25,15 +26,22 @@ KINDS = (
     "ViewLayer",
     "LayerCollection",
 )
+OTHER_NODES = {
+    *("OUTPUT_MATERIAL", "OUTPUT_WORLD", "OUTPUT_LIGHT"),
+    *("RGB", "VALUE", "FRESNEL", "LAYER_WEIGHT", "TEX_IMAGE", "TEX_ENVIRONMENT"),
+}
 CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX")  # of them one at least changes the picture
 
 
 def main(folder: Path) -> Any:
     census = sys.modules["pivot.export.census"]
+    inputs = _inputs()
     return {
-        "unnamed": _unnamed(census.TABLES),
-        "entries": {kind: table.names() for kind, table in census.TABLES.items()},
-        "there": {kind: sorted(names) for kind, names in _there(census.TABLES).items()},
+        "unnamed": _unnamed(census.TABLES) + _unnamed_inputs(census.INPUTS, inputs),
+        "entries": {kind: table.names() for kind, table in census.TABLES.items()}
+        | {f"inputs of {kind}": table.names() for kind, table in census.INPUTS.items()},
+        "there": {kind: sorted(names) for kind, names in _there(census.TABLES).items()}
+        | {f"inputs of {kind}": names for kind, names in inputs.items()},
         "factory": _factory(),
         "silent": _silent(census),
     }
@@ -41,7 +49,7 @@ def main(folder: Path) -> Any:
 
 def _structs(tables: Any) -> Iterator[Any]:
     """The RNA of each kind and of its parts."""
-    todo = [getattr(bpy.types, kind).bl_rna for kind in KINDS]
+    todo = [getattr(bpy.types, kind).bl_rna for kind in (*KINDS, *_inputs())]
     while todo:
         rna = todo.pop()
         yield rna
@@ -77,6 +85,32 @@ def _unnamed(tables: Any) -> list[str]:
         named = set().union(*(tables[base].names() for base in _bases(rna) if base in tables))
         unnamed += [f"{rna.identifier}.{name}" for name in sorted(_properties(rna) - named)]
     return unnamed
+
+
+@functools.cache
+def _inputs() -> dict[str, list[str]]:
+    """The inputs of each kind of node that the exporter knows, by their identifiers."""
+    exported = {"pivot.export.shader": "_SHADERS", "pivot.export.constants": "CONSTANTS"}
+    known = {kind for module, table in exported.items() for kind in getattr(sys.modules[module], table)} | OTHER_NODES
+    tree = bpy.data.node_groups.new("census", "ShaderNodeTree")
+    inputs = {}
+    for kind in (name for name in dir(bpy.types) if name.startswith("ShaderNode")):
+        try:
+            node = tree.nodes.new(kind)
+        except RuntimeError:  # a base of nodes
+            continue
+        if node.type in known:
+            inputs[kind] = [socket.identifier for socket in node.inputs]
+    return inputs
+
+
+def _unnamed_inputs(tables: Any, inputs: dict[str, list[str]]) -> list[str]:
+    return [
+        f"{kind}, input {name}"
+        for kind, names in inputs.items()
+        for name in names
+        if kind not in tables or name not in tables[kind].names()
+    ]
 
 
 class _Said:
@@ -174,6 +208,12 @@ def _of_collection(census: Any, struct: Any, name: str) -> list[str]:
     if name == "particle_systems" and struct.type == "MESH":
         modifier = struct.modifiers.new("hair", "PARTICLE_SYSTEM")
         struct.particle_systems[0].settings.type = "HAIR"
+        census.report_left_out(struct, "owner", said)
+        struct.modifiers.remove(modifier)
+    if name == "modifiers" and struct.type == "MESH":
+        modifier = struct.modifiers.new("subdivision", "SUBSURF")
+        if hasattr(modifier, "use_adaptive_subdivision"):  # from Blender 5.0
+            modifier.use_adaptive_subdivision = True
         census.report_left_out(struct, "owner", said)
         struct.modifiers.remove(modifier)
     return said.texts
