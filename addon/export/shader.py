@@ -41,10 +41,11 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
 def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Colour:
     """(3,): the colour and strength that a light's or world's node tree multiplies its light with."""
     output = output_surface(tree)
-    if output is not None:
-        _leave_out(output, owner)
+    if output is None:
+        return np.zeros(3)
+    _leave_out(output, owner)
     try:
-        surface = None if output is None else _shader(output, owner)
+        surface = _shader(output, owner)
     except RecursionError:
         owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is black")
         return np.zeros(3)

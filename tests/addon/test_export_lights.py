@@ -116,11 +116,11 @@ def test_exposure_temperature_and_normalize(host: Host, lights: Any) -> None:
 def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
         "light 'beam': Spread is not supported, it shines all round",
-        "light 'fill': Lights without shadows are not supported, it casts them",
+        "light 'fill': lights without shadows are not supported, it casts them",
         "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
         "object 'catcher': Shadow Visibility is not supported, it casts shadows",
         "object 'catcher': Shadow Catcher is not supported, it is shown as it is",
-        "object 'hair': Hair strands are not supported, they are left out",
+        "object 'hair': hair strands are not supported, they are left out",
         "object 'panel', material 'glow': in the analytic integrator its emission is shown, but lights nothing. "
         "Fix: use Monte Carlo",
         "camera 'Camera': Depth of Field is not supported, everything is in focus",
@@ -131,7 +131,7 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
         "world 'World', node 'World Output': Volume is not supported, it is left out",
     ]
     if host.version >= (4, 0):
-        said.append("light 'fill': Light linking is not supported, it shines on everything")
+        said.append("light 'fill': light linking is not supported, it shines on everything")
     assert sorted(cases["reports"]) == sorted(f"Pivot: {text}" for text in said)
 
 

@@ -10,7 +10,7 @@ from .table import LeftOut, Table
 
 def _shadows_are_cycles(light: Any) -> bool:
     """Whether Cycles has no switch of its own for shadows, as in Blender 3.4."""
-    return not hasattr(light.cycles, "cast_shadow")
+    return not hasattr(getattr(light, "cycles", None), "cast_shadow")
 
 
 LIGHT = {
@@ -21,7 +21,7 @@ LIGHT = {
         """,
         parts="cycles",
         left_out=(
-            LeftOut("use_shadow", True, "it casts them", what="Lights without shadows are", when=_shadows_are_cycles),
+            LeftOut("use_shadow", True, "it casts them", what="lights without shadows are", when=_shadows_are_cycles),
             LeftOut("spread", math.pi, "it shines all round"),
         ),
         # EEVEE's, and what older Blenders kept from before it.
@@ -38,7 +38,7 @@ LIGHT = {
     "CyclesLightSettings": Table(
         used="is_portal",
         left_out=(
-            LeftOut("cast_shadow", True, "it casts them", what="Lights without shadows are"),
+            LeftOut("cast_shadow", True, "it casts them", what="lights without shadows are"),
             LeftOut("max_bounces", 1024, "it lights every bounce"),
         ),
         no_meaning="name use_multiple_importance_sampling is_caustics_light",

@@ -55,9 +55,9 @@ OBJECT = {
             LeftOut("visible_shadow", True, "it casts shadows", when=_is_surface),
             LeftOut("is_holdout", False, "it is shown as it is", when=_is_surface),
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
-            LeftOut("particle_systems", _without_strands, "they are left out", what="Hair strands are"),
+            LeftOut("particle_systems", _without_strands, "they are left out", what="hair strands are"),
             LeftOut(
-                "modifiers", _is_not_adaptive, "it is as fine as its modifier says", what="Adaptive subdivision is"
+                "modifiers", _is_not_adaptive, "it is as fine as its modifier says", what="adaptive subdivision is"
             ),
             LeftOut("shadow_terminator_normal_offset", 0.0, "shadows begin where they do without"),
             LeftOut("shadow_terminator_shading_offset", 0.0, "shadows begin where they do without"),
@@ -78,14 +78,14 @@ OBJECT = {
     ),
     "ObjectLightLinking": Table(
         left_out=(
-            LeftOut("receiver_collection", None, "it shines on everything", what="Light linking is"),
-            LeftOut("blocker_collection", None, "everything casts its shadows", what="Shadow linking is"),
+            LeftOut("receiver_collection", None, "it shines on everything", what="light linking is"),
+            LeftOut("blocker_collection", None, "everything casts its shadows", what="shadow linking is"),
         ),
     ),
     "CyclesObjectSettings": Table(
         left_out=(
             LeftOut(
-                "use_adaptive_subdivision", False, "it is as fine as its modifier says", what="Adaptive subdivision is"
+                "use_adaptive_subdivision", False, "it is as fine as its modifier says", what="adaptive subdivision is"
             ),
             LeftOut("shadow_terminator_offset", 0.0, "shadows begin where they do without"),
         ),

@@ -138,8 +138,8 @@ SCENE = {
                 use_pass_subsurface_indirect use_pass_subsurface_color use_pass_cryptomatte_object
                 use_pass_cryptomatte_material use_pass_cryptomatte_asset
                 """),
-            LeftOut("aovs", is_empty, "the picture lacks them", what="Shader AOVs are"),
-            LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="Light groups are"),
+            LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
+            LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
         ),
         # Hair, volumes and motion blur are reported where they are.
         no_meaning="""

@@ -1,4 +1,4 @@
-"""How a table tells what becomes of each property of a Blender type, and how what is left out is reported.
+"""How a table tells what becomes of each property of a Blender type.
 
 A name may carry a Blender version that has the property, "visible_raycast@5.2"; one without is in the versions that the
 tests run. tests/addon/test_census.py holds the tables against each Blender at hand.
@@ -6,12 +6,9 @@ tests run. tests/addon/test_census.py holds the tables against each Blender at h
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
-
-from ...report import Reporter
 
 
 @dataclass(frozen=True)
@@ -48,32 +45,3 @@ def split_mark(entry: str) -> tuple[str, str]:
 
 def is_empty(value: Any) -> bool:
     return len(value) == 0
-
-
-def report_left_out(data: Any, owner: str, reporter: Reporter, tables: Mapping[str, Table]) -> None:
-    """Say of each property of data and its parts that it is left out, unless it is neutral.
-
-    data: a bpy_struct. owner: how reports name it, "light 'Key'". tables: by RNA type.
-    """
-    rna = data.bl_rna
-    kind = rna
-    while kind is not None:
-        table = tables.get(kind.identifier, Table())
-        for row in table.left_out:
-            name, _ = split_mark(row.name)
-            if name in rna.properties and row.when(data) and not _is_neutral(getattr(data, name), row.neutral):
-                what = row.what or f"{rna.properties[name].name} is"
-                reporter.warn(f"{owner}: {what} not supported, {row.instead}")
-        for part in table.parts.split():
-            below = getattr(data, part, None)
-            if below is not None:
-                report_left_out(below, owner, reporter, tables)
-        kind = kind.base
-
-
-def _is_neutral(value: Any, neutral: Any) -> bool:
-    if callable(neutral):
-        return neutral(value)
-    if isinstance(neutral, float):
-        return math.isclose(value, neutral, rel_tol=1e-5, abs_tol=1e-9)
-    return value == neutral

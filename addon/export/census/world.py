@@ -18,7 +18,7 @@ WORLD = {
     "CyclesWorldSettings": Table(
         left_out=(
             LeftOut("max_bounces", 1024, "it lights every bounce"),
-            LeftOut("use_shadows@5.2", True, "it casts them", what="A world without shadows is"),
+            LeftOut("use_shadows@5.2", True, "it casts them", what="a world without shadows is"),
         ),
         # How it is sampled, and its volume, which is reported by its node.
         no_meaning="""
