@@ -43,6 +43,6 @@ def test_nothing_is_said_of_what_is_computed(cases: Any) -> None:
 
 
 def test_every_node_was_tried(cases: Any, host: Host) -> None:
-    missing = [index for index, name in enumerate(cases["names"]) if not name]
     assert len(cases["names"]) > 300
-    assert len(missing) == 0
+    gone = 8 if host.version >= (5, 0) else 0  # Combine and Separate of RGB and HSV by nodes of their own
+    assert cases["names"].count("") == gone
