@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..report import RenderError, Reporter, naming
+from ..report import RenderError, naming
+from .census import report_left_out
 from .context import Context
 
 ViewPlane = tuple[float, float, float, float]  # (left, right, bottom, top) at z = -1 in camera space
@@ -70,7 +71,8 @@ def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame
     camera = original.evaluated_get(context.depsgraph)
     data = camera.data
     render = scene.render
-    _check(camera, render, context.reporter)
+    _check(camera)
+    report_left_out(data, f"camera '{camera.name}'", context.reporter)
     camera_to_world = without_scale(np.array(engine.camera_model_matrix(camera)))
     if not np.isfinite(camera_to_world).all():
         raise RenderError(
@@ -85,8 +87,8 @@ def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame
         )
 
 
-def _check(camera: bpy.types.Object, render: bpy.types.RenderSettings, reporter: Reporter) -> None:
-    """Raise RenderError for a camera Pivot cannot render, warn of what it leaves out."""
+def _check(camera: bpy.types.Object) -> None:
+    """Raise RenderError for a camera Pivot cannot render."""
     data: Any = camera.data
     if camera.type != "CAMERA":
         raise RenderError(f"object '{camera.name}' is the scene's camera but no camera. Fix: choose a camera object")
@@ -95,10 +97,6 @@ def _check(camera: bpy.types.Object, render: bpy.types.RenderSettings, reporter:
             f"camera '{camera.name}' is {data.bl_rna.properties['type'].enum_items[data.type].name.lower()}. "
             "Fix: set its lens type to Perspective, the one Pivot renders"
         )
-    if data.dof.use_dof:
-        reporter.warn(f"camera '{camera.name}': depth of field is not supported, everything is in focus")
-    if render.use_motion_blur:
-        reporter.warn(f"camera '{camera.name}': motion blur is not supported, the picture is sharp")
 
 
 def without_scale(matrix: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -14,7 +14,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..report import RenderError, naming
+from ..report import RenderError, Reporter, naming
+from .census import report_left_out
 from .context import Context
 from .nodes import Owner, active_tree
 from .shader import light_emission
@@ -32,8 +33,11 @@ def export_light(context: Context, light_object: bpy.types.Object, object_to_wor
         )
     if _is_portal(data):
         return
-    _warn_of_what_is_left_out(context, light_object)
-    with naming(f"light '{light_object.name}'", "give its power, colour and size finite values"):
+    owner = f"light '{light_object.name}'"
+    for described in (light_object, data):
+        report_left_out(described, owner, context.reporter)
+    _warn_of_uneven_scale(owner, data, object_to_world, context.reporter)
+    with naming(owner, "give its power, colour and size finite values"):
         light = _LIGHTS[data.type](context, data, _strength(context, light_object), object_to_world)
         if light is not None:
             context.scene.add_light(light_object.name, light)
@@ -146,13 +150,8 @@ def _area(context: Context, data: Any, strength: NDArray[np.float64], object_to_
 _LIGHTS = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
 
 
-def _warn_of_what_is_left_out(context: Context, light_object: bpy.types.Object) -> None:
-    data: Any = light_object.data
-    name = light_object.name
-    if data.type == "AREA" and not math.isclose(data.spread, math.pi, rel_tol=1e-5):
-        context.reporter.warn(f"area light '{name}': a spread below 180° is not supported, it shines all round")
-    if not data.use_shadow:
-        context.reporter.warn(f"light '{name}': lights without shadows are not supported, it casts them")
-    linking = getattr(light_object, "light_linking", None)  # from Blender 4.0
-    if linking and (linking.receiver_collection or linking.blocker_collection):
-        context.reporter.warn(f"light '{name}': light linking is not supported, it shines on everything")
+def _warn_of_uneven_scale(owner: str, data: Any, object_to_world: NDArray[np.float64], reporter: Reporter) -> None:
+    """Cycles' cones are as elliptic as their object's scale."""
+    scale = np.linalg.norm(object_to_world[:3, :3], axis=0)
+    if data.type == "SPOT" and not np.allclose(scale, scale.mean(), rtol=1e-3):
+        reporter.warn(f"{owner}: an uneven Scale is not supported, the cone is round and as wide as its Spot Size")

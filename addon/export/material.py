@@ -29,9 +29,17 @@ class MaterialTable:
         if key not in self._ids:
             name = material.name if material else "none"
             surface = _surface(material, Owner(f"object '{user.name}', material '{name}'", self._context.reporter))
+            self._warn_of_emission(surface, user, name)
             with naming(f"object '{user.name}', material '{name}'", "give its colours and numbers finite values"):
                 self._ids[key] = self._context.scene.add_material(name, surface.core_material(self._context.core))
         return self._ids[key]
+
+    def _warn_of_emission(self, surface: Surface, user: bpy.types.Object, name: str) -> None:
+        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and surface.emission.any():
+            self._context.reporter.warn(
+                f"object '{user.name}', material '{name}': in the analytic integrator its emission is shown, but "
+                "lights nothing. Fix: use Monte Carlo"
+            )
 
 
 def _surface(material: bpy.types.Material | None, owner: Owner) -> Surface:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,6 +26,21 @@ class MeshArrays:
     corner_normals: NDArray[np.float32]  # (C, 3), unit
     corner_uvs: NDArray[np.float32] | None  # (C, 2)
     triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
+
+
+@contextmanager
+def edits_applied(blender_object: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """The mesh of an evaluated object, with what is edited in Edit Mode.
+
+    There an evaluated mesh without a visible modifier only stands for the edited one and has no triangles of its own.
+    """
+    if not blender_object.data.is_editmode:
+        yield blender_object.data
+        return
+    try:
+        yield blender_object.to_mesh()
+    finally:
+        blender_object.to_mesh_clear()
 
 
 def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays | None:

@@ -1,7 +1,8 @@
 """Node trees read as constants: what feeds a socket, and the number or colour it stands for.
 
-Pivot shades with constants for now. A node that varies over a surface is reported once and stands for its nearest
-constant: an image for its average, anything else for the mean of its colour inputs, or mid grey.
+Pivot shades with constants for now. What constants.py has a row for is computed; a node that varies over a surface is
+reported once and stands for its nearest constant: an image for its average, anything else for the mean of its colour
+inputs, or mid grey.
 """
 
 from __future__ import annotations
@@ -11,15 +12,13 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..report import Reporter
+from .colour import LUMINANCE, Colour
+from .constants import CONSTANTS
 from .image import mean_pixel
 
-Colour = NDArray[np.float64]  # (3,) linear RGB
-
 MID_GREY = 0.5
-_LUMINANCE = np.array((0.2126, 0.7152, 0.0722))  # of linear Rec. 709
 
 
 @dataclass(frozen=True)
@@ -134,7 +133,10 @@ def number(target: Socket, owner: Owner, unknown: float | None = None) -> float:
     value = _value(target, owner)
     if value is None:
         value = _own_value(target.socket) if unknown is None else np.full(3, unknown)
-    return float(value @ _LUMINANCE)
+    if np.ptp(value) == 0:
+        return float(value[0])  # to the last bit, for nodes that round
+    feed = source(target)
+    return float(value.mean() if feed is not None and feed.socket.type == "VECTOR" else value @ LUMINANCE)
 
 
 def _own_value(socket: Any) -> Colour:
@@ -153,9 +155,8 @@ def _value(target: Socket, owner: Owner) -> Colour | None:
         return _own_value(feed.socket)
     if node.type in {"TEX_IMAGE", "TEX_ENVIRONMENT"}:
         return _image_value(feed, owner)
-    if node.type == "VALTORGB":
-        owner.warn(node, "colour ramps are not supported, it stands for the mean of its colours")
-        return np.mean([node.color_ramp.evaluate(x)[:3] for x in np.linspace(0, 1, 33)], axis=0)
+    if node.type in CONSTANTS:
+        return CONSTANTS[node.type](Inputs(feed, owner))
     if node.type == "FRESNEL":
         owner.warn(node, "Fresnel factors are not supported, it stands for its mean over all directions")
         return np.full(3, mean_fresnel(number(feed.input("IOR"), owner)))
@@ -169,6 +170,31 @@ def _value(target: Socket, owner: Owner) -> Colour | None:
         return None
     owner.warn(node, f"{node.bl_label} nodes are not supported, it stands for the mean of its colours")
     return np.mean([colour(c, owner) for c in colours], axis=0)
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """The inputs of the node of an output as constants: a constants.Node."""
+
+    feed: Socket
+    owner: Owner
+
+    @property
+    def node(self) -> Any:
+        return self.feed.node
+
+    @property
+    def output(self) -> str:
+        return self.feed.socket.identifier
+
+    def number(self, *identifiers: str | int, unknown: float | None = None) -> float:
+        return number(self.feed.input(*identifiers), self.owner, unknown)
+
+    def colour(self, *identifiers: str | int) -> Colour:
+        return colour(self.feed.input(*identifiers), self.owner)
+
+    def warn(self, text: str) -> None:
+        self.owner.warn(self.node, text)
 
 
 def _image_value(feed: Socket, owner: Owner) -> Colour | None:

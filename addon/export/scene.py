@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..report import RenderError, Reporter, naming
+from .census import report_left_out
 from .context import Context
 from .light import export_light
 from .material import MaterialTable
-from .mesh import MeshArrays, mesh_arrays
+from .mesh import MeshArrays, edits_applied, mesh_arrays
 from .world import export_world
 
 # Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
@@ -44,9 +45,25 @@ def export_scene(
     Raises RenderError naming the object at fault.
     """
     context = Context(core, core.Scene(), depsgraph, reporter)
+    _report_settings(context)
     export_world(context)
     _Exporter(context, check_cancel).export_objects()
     return context
+
+
+def _report_settings(context: Context) -> None:
+    """Say what is left out of the scene's and the view layer's settings."""
+    scene, view_layer = context.depsgraph.scene_eval, context.depsgraph.view_layer
+    report_left_out(scene, f"scene '{scene.name}'", context.reporter)
+    report_left_out(view_layer, f"view layer '{view_layer.name}'", context.reporter)
+    _report_collections(view_layer.layer_collection, context.reporter)
+
+
+def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -> None:
+    for collection in parent.children:
+        if not collection.exclude and collection.collection.all_objects:
+            report_left_out(collection, f"collection '{collection.name}'", reporter)
+            _report_collections(collection, reporter)
 
 
 class _Exporter:
@@ -92,7 +109,7 @@ class _Exporter:
         mesh = self._mesh(blender_object)
         if mesh is None:
             return None
-        self._warn_of_what_is_left_out(blender_object)
+        report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
         slot_materials = [slot.material for slot in blender_object.material_slots]
         return _Group(
             name=blender_object.name,
@@ -105,7 +122,9 @@ class _Exporter:
         """The core's mesh of an object's evaluated mesh."""
         key = blender_object.data.as_pointer()
         if key not in self._meshes:
-            self._meshes[key] = self._add_mesh(blender_object.name, mesh_arrays(blender_object.data))
+            with edits_applied(blender_object) as mesh:
+                arrays = mesh_arrays(mesh)
+            self._meshes[key] = self._add_mesh(blender_object.name, arrays)
         return self._meshes[key]
 
     def _add_mesh(self, name: str, arrays: MeshArrays | None) -> int | None:
@@ -128,15 +147,6 @@ class _Exporter:
             group.materials,
             camera_visible=group.camera_visible,
         )
-
-    def _warn_of_what_is_left_out(self, blender_object: bpy.types.Object) -> None:
-        particles = [system.settings for system in blender_object.particle_systems]
-        if any(settings.type == "HAIR" and settings.render_type == "PATH" for settings in particles):
-            self._warn(blender_object, "hair strands are not supported and left out")
-        if not all(getattr(blender_object, f"visible_{ray}") for ray in ("diffuse", "glossy", "shadow")):
-            self._warn(blender_object, "ray visibility is supported for the camera only")
-        if blender_object.is_holdout or blender_object.is_shadow_catcher:
-            self._warn(blender_object, "holdouts and shadow catchers are not supported, it is shown as it is")
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

@@ -12,7 +12,9 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from .nodes import MID_GREY, Colour, Owner, Socket, colour, is_constant, is_linked, number, output_surface, source
+from .census import INPUTS
+from .colour import Colour
+from .nodes import MID_GREY, Owner, Socket, colour, is_constant, is_linked, number, output_surface, source
 from .surface import Surface, added
 
 GREY = Surface(diffuse=np.full(3, 0.8))  # Cycles' for objects without a material
@@ -24,8 +26,7 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
     if output is None or not output.socket.is_linked:
         owner.reporter.warn(f"{owner.name}: nothing is linked to the Surface of its output, it is shown as grey")
         return GREY
-    for name in ("Volume", "Displacement"):
-        _leave_out_linked(output, owner, name)
+    _leave_out(output, owner)
     try:
         surface = _shader(output, owner)
     except RecursionError:
@@ -40,7 +41,14 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
 def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Colour:
     """(3,): the colour and strength that a light's or world's node tree multiplies its light with."""
     output = output_surface(tree)
-    surface = None if output is None else _shader(output, owner)
+    if output is None:
+        return np.zeros(3)
+    _leave_out(output, owner)
+    try:
+        surface = _shader(output, owner)
+    except RecursionError:
+        owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is black")
+        return np.zeros(3)
     return np.zeros(3) if surface is None else surface.emission
 
 
@@ -51,6 +59,7 @@ def _shader(target: Socket, owner: Owner) -> Surface | None:
         return Surface()
     evaluate = _SHADERS.get(feed.node.type)
     if evaluate is not None:
+        _leave_out(feed, owner)
         return evaluate(feed, owner)
     owner.warn(feed.node, f"{feed.node.bl_label} is not supported, it is shown as a diffuse surface of its colour")
     tint = feed.find_input("Color", "Base Color", "Diffuse Color")
@@ -81,14 +90,10 @@ def _sum(feed: Socket, owner: Owner, weight_a: float, weight_b: float, a: Socket
 
 
 def _diffuse(feed: Socket, owner: Owner) -> Surface:
-    _leave_out(feed, owner, ("Roughness",), 0)
-    _leave_out_linked(feed, owner, "Normal")
     return Surface(diffuse=colour(feed.input("Color"), owner))
 
 
 def _glossy(feed: Socket, owner: Owner) -> Surface:
-    _leave_out(feed, owner, ("Anisotropy",), 0)
-    _leave_out_linked(feed, owner, "Normal")
     tint = colour(feed.input("Color"), owner)
     return Surface(
         alpha=_alpha(feed, owner),
@@ -102,8 +107,6 @@ def _glossy(feed: Socket, owner: Owner) -> Surface:
 def _metallic(feed: Socket, owner: Owner) -> Surface:
     if feed.node.fresnel_type != "F82":
         owner.warn(feed.node, "physical conductors are not supported, it is shown by its base colour and edge tint")
-    _leave_out(feed, owner, ("Anisotropy",), 0)
-    _leave_out_linked(feed, owner, "Normal")
     base, edge_tint = (np.clip(colour(feed.input(name), owner), 0, 1) for name in ("Base Color", "Edge Tint"))
     return Surface(
         alpha=_alpha(feed, owner),
@@ -148,10 +151,6 @@ def _emitted(tint: Socket, strength: Socket, owner: Owner) -> Colour:
 
 
 def _principled(feed: Socket, owner: Owner) -> Surface:
-    for names, neutral in _LEFT_OUT:
-        _leave_out(feed, owner, names, neutral)
-    for name in ("Normal", "Coat Normal", "Clearcoat Normal"):
-        _leave_out_linked(feed, owner, name)
     base = np.maximum(colour(feed.input("Base Color"), owner), 0)
     metallic = min(max(number(feed.input("Metallic"), owner), 0.0), 1.0)
     ior, tint = _dielectric(feed, owner, base)
@@ -223,29 +222,12 @@ def _multiscatter(feed: Socket, owner: Owner) -> bool:
     return distribution == "MULTI_GGX"
 
 
-# Principled's inputs that are left out: their identifiers, the later Blender's first, and the value that means nothing.
-_LEFT_OUT: tuple[tuple[tuple[str, ...], float], ...] = (
-    (("Subsurface Weight", "Subsurface"), 0),
-    (("Transmission Weight", "Transmission"), 0),
-    (("Coat Weight", "Clearcoat"), 0),
-    (("Sheen Weight", "Sheen"), 0),
-    (("Anisotropic",), 0),
-    (("Diffuse Roughness",), 0),
-    (("Thin Film Thickness",), 0),
-    (("Alpha",), 1),
-)
-
-
-def _leave_out(feed: Socket, owner: Owner, identifiers: tuple[str, ...], neutral: float) -> None:
-    target = feed.find_input(*identifiers)
-    if target is not None and not is_constant(target, neutral):
-        owner.warn(feed.node, f"{target.socket.name} is not supported and left out")
-
-
-def _leave_out_linked(feed: Socket, owner: Owner, identifier: str) -> None:
-    target = feed.find_input(identifier)
-    if target is not None and is_linked(target):
-        owner.warn(feed.node, f"a linked {identifier} is not supported and left out")
+def _leave_out(feed: Socket, owner: Owner) -> None:
+    """Say which inputs of a node are left out."""
+    for identifier, neutral in INPUTS[feed.node.bl_idname].neutral_values():
+        target = feed.find_input(identifier)
+        if target is not None and (is_linked(target) if neutral is None else not is_constant(target, neutral)):
+            owner.warn(feed.node, f"{target.socket.name} is not supported, it is left out")
 
 
 _SHADERS: dict[str, Callable[[Socket, Owner], Surface | None]] = {

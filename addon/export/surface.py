@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .nodes import Colour
+from .colour import Colour
 
 
 def _black() -> Colour:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..report import naming
+from .census import report_left_out
 from .context import Context
 from .nodes import Owner, active_tree
 from .shader import light_emission
@@ -17,10 +18,9 @@ def export_world(context: Context) -> None:
     if world is None or not view_layer.use_sky:
         context.scene.set_world(radiance=(0.0, 0.0, 0.0))
         return
+    owner = f"world '{world.name}'"
+    report_left_out(world, owner, context.reporter)
     tree = active_tree(world)
-    if tree is None:
-        radiance = list(world.color)
-    else:
-        radiance = light_emission(tree, Owner(f"world '{world.name}'", context.reporter)).tolist()
-    with naming(f"world '{world.name}'", "give its colour and strength finite values"):
-        context.scene.set_world(radiance=radiance)
+    radiance = world.color if tree is None else light_emission(tree, Owner(owner, context.reporter))
+    with naming(owner, "give its colour and strength finite values"):
+        context.scene.set_world(radiance=list(radiance))

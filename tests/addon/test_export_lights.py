@@ -126,17 +126,30 @@ def test_exposure_temperature_and_normalize(host: Host, lights: Any) -> None:
 
 def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
-        "area light 'beam': a spread below 180° is not supported, it shines all round",
+        "light 'beam': Spread is not supported, it shines all round",
         "light 'fill': lights without shadows are not supported, it casts them",
-        "object 'catcher': ray visibility is supported for the camera only",
-        "object 'catcher': holdouts and shadow catchers are not supported, it is shown as it is",
-        "object 'hair': hair strands are not supported and left out",
-        "camera 'Camera': depth of field is not supported, everything is in focus",
-        "camera 'Camera': motion blur is not supported, the picture is sharp",
+        "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
+        "object 'catcher': Shadow Visibility is not supported, it casts shadows",
+        "object 'catcher': Shadow Catcher is not supported, it is shown as it is",
+        "object 'hair': hair strands are not supported, they are left out",
+        "object 'panel', material 'glow': in the analytic integrator its emission is shown, but lights nothing. "
+        "Fix: use Monte Carlo",
+        "camera 'Camera': Depth of Field is not supported, everything is in focus",
+        "scene 'Scene': Motion Blur is not supported, the picture is sharp",
+        "collection 'masked': Holdout is not supported, its objects are shown as they are",
+        "collection 'within': Indirect Only is not supported, the camera sees its objects",
+        "world 'World': Camera Visibility is not supported, the camera sees it",
+        "world 'World', node 'World Output': Volume is not supported, it is left out",
     ]
     if host.version >= (4, 0):
         said.append("light 'fill': light linking is not supported, it shines on everything")
     assert sorted(cases["reports"]) == sorted(f"Pivot: {text}" for text in said)
+
+
+def test_negative_light_is_handed_on(cases: Any) -> None:
+    close(cases["negative"]["power"], (-1, -1, -1))
+    close(cases["negative"]["nodes"], (-3, -3, -3))
+    close(cases["negative"]["world"], (-1, 0, -0.5))
 
 
 def test_world(cases: Any) -> None:

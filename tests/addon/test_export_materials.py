@@ -142,7 +142,7 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         "no_image": ["Image Texture"],
         "noise": ["Noise Texture"],
         "checker": ["Checker Texture"],
-        "ramp": ["Ramp"],
+        "ramp": ["Gradient Texture", "Ramp"],
         "rough_noise": ["Noise Texture"],
         "bump": ["Diffuse BSDF"],
         "glass": ["Glass BSDF"],

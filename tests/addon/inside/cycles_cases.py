@@ -30,6 +30,7 @@ LIGHTS: dict[str, dict[str, Any]] = {
     "rectangle": {"type": "AREA", "energy": 60, "shape": "RECTANGLE", "size": 3, "size_y": 1},
     "disk": {"type": "AREA", "energy": 60, "shape": "DISK", "size": 2.5},
     "ellipse": {"type": "AREA", "energy": 60, "shape": "ELLIPSE", "size": 3, "size_y": 1},
+    "nodes": {"type": "AREA", "energy": 20, "shape": "SQUARE", "size": 2.5, "use_nodes": True},
 }
 if bpy.app.version >= (4, 4):
     LIGHTS["exposed"] = {"type": "POINT", "energy": 100, "exposure": 1} | SPHERE
@@ -58,7 +59,7 @@ if not OLD:
 def main(folder: Path) -> Any:
     """Returns the names of each light sampling's scenes, and those of the materials from left to right."""
     rendered: dict[str, list[str]] = {light_sampling: [] for light_sampling in PIVOT_SAMPLES}
-    for name, light in (LIGHTS | {"world": {}, "bounces": LIGHTS["square"]}).items():
+    for name, light in (LIGHTS | {"world": {}, "world_nodes": {}, "bounces": LIGHTS["square"]}).items():
         _scene(name, dict(light))
         bounces = 3 if name == "bounces" else 0
         _cycles(folder / f"{name}_CYCLES.exr", bounces)
@@ -96,8 +97,25 @@ def _scene(name: str, light: dict[str, Any]) -> None:
         turned = parts.light(name, light.pop("type"), (1.5, -2, 4), **light)
         turned.rotation_euler = (math.radians(27), math.radians(20), 0.3)
         turned.scale = (1.2, 0.8, 1) if turned.data.type == "AREA" else (1, 1, 1)
+        if turned.data.use_nodes:
+            _feed(turned.data.node_tree, turned.data.node_tree.nodes["Emission"])
     else:
-        parts.world((0.5, 0.7, 0.9))
+        tree = parts.world((0.5, 0.7, 0.9)).node_tree
+        if name == "world_nodes":
+            _feed(tree, tree.nodes["Background"])
+
+
+def _feed(tree: Any, shader: Any) -> None:
+    """A black body's colour, and 1.5 x 2 as the strength, half of it by a shader mixed with none."""
+    product, body = tree.nodes.new("ShaderNodeMath"), tree.nodes.new("ShaderNodeBlackbody")
+    product.operation = "MULTIPLY"
+    product.inputs[0].default_value, product.inputs[1].default_value, body.inputs[0].default_value = 1.5, 2, 2500
+    tree.links.new(product.outputs[0], shader.inputs["Strength"])
+    tree.links.new(body.outputs[0], shader.inputs["Color"])
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(shader.outputs[0], mix.inputs[1])
+    output = next(node for node in tree.nodes if node.type.startswith("OUTPUT"))
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
 
 
 def _materials(folder: Path) -> list[str]:

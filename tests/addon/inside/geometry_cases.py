@@ -108,11 +108,11 @@ def _instances() -> Any:
     emitter.show_instancer_for_render = False
 
     scatter = parts.quad("scatter")
-    scatter.modifiers.new("nodes", "NODES").node_group = _cubes_on_points(green)
-    return _summary(record())
+    scatter.modifiers.new("nodes", "NODES").node_group = cubes_on_points(green)
+    return summary(record())
 
 
-def _cubes_on_points(material: Any) -> Any:
+def cubes_on_points(material: Any) -> Any:
     """Geometry nodes: a cube of the material on each vertex."""
     tree = bpy.data.node_groups.new("cubes", "GeometryNodeTree")
     if bpy.app.version >= (4, 0):
@@ -149,7 +149,7 @@ def _shapes() -> Any:
         ball = bpy.data.metaballs.new(name)
         ball.elements.new()
         parts.link(name, ball)
-    return _summary(record())
+    return summary(record())
 
 
 def _empty() -> Any:
@@ -164,7 +164,7 @@ def _empty() -> Any:
     return {"meshes": len(recording.meshes), "reports": recording.reports}
 
 
-def _summary(recording: Recording) -> Any:
+def summary(recording: Recording) -> Any:
     return {
         "meshes": len(recording.meshes),
         "reports": recording.reports,

@@ -14,7 +14,7 @@ HAS_EXPOSURE = bpy.app.version >= (4, 4)  # and normalize, temperature
 
 
 def main(folder: Path) -> Any:
-    return {"lights": _lights(), "reports": _reports(), "worlds": _worlds()}
+    return {"lights": _lights(), "reports": _reports(), "worlds": _worlds(), "negative": _negative()}
 
 
 def _lights() -> Any:
@@ -62,7 +62,13 @@ def _reports() -> Any:
     parts.clear()
     parts.camera()
     parts.light("beam", "AREA", spread=1.0)
-    fill = parts.light("fill", "POINT", use_shadow=False)
+    parts.light("oval", "SPOT").scale = (1, 2, 1)
+    parts.light("even", "SPOT").scale = (2, 2, 2)
+    fill = parts.light("fill", "POINT")
+    if bpy.app.version >= (4, 0):
+        fill.data.use_shadow = False
+    else:
+        fill.data.cycles.cast_shadow = False
     if bpy.app.version >= (4, 0):
         fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
     bpy.context.scene.camera.data.dof.use_dof = True
@@ -72,10 +78,42 @@ def _reports() -> Any:
     hair = parts.quad("hair")
     hair.modifiers.new("hair", "PARTICLE_SYSTEM")
     hair.particle_systems[0].settings.type = "HAIR"
+    _masks()
+    world = parts.world((1, 1, 1))
+    world.cycles_visibility.camera = False
+    volume = world.node_tree.nodes.new("ShaderNodeVolumeScatter")
+    world.node_tree.links.new(volume.outputs[0], world.node_tree.nodes["World Output"].inputs["Volume"])
+    parts.quad("panel", material=parts.shaded("glow", "ShaderNodeEmission")[0])
+    parts.quad("second panel", material=bpy.data.materials["glow"])
+    bpy.context.scene.pivot.integrator = "ANALYTIC"
     bpy.context.scene.view_layers.new("second")
     bpy.context.scene.frame_end = 2
     bpy.context.scene.render.filepath = str(Path(bpy.app.tempdir) / "reports")
     return record(animation=True).reports
+
+
+def _masks() -> None:
+    """A collection that is a holdout, one of its objects in an Indirect Only one below, and one that is empty."""
+    masked, within, empty = (bpy.data.collections.new(name) for name in ("masked", "within", "empty"))
+    bpy.context.scene.collection.children.link(masked)
+    bpy.context.scene.collection.children.link(empty)
+    masked.children.link(within)
+    within.objects.link(bpy.data.objects.new("in within", bpy.data.meshes.new("nothing")))
+    layers = bpy.context.view_layer.layer_collection.children
+    layers["masked"].holdout = layers["masked"].children["within"].indirect_only = layers["empty"].holdout = True
+
+
+def _negative() -> Any:
+    parts.clear()
+    parts.camera()
+    parts.light("power", "POINT", energy=-4 * math.pi)
+    nodes = parts.light("nodes", "POINT", energy=4 * math.pi).data
+    nodes.use_nodes = True
+    nodes.node_tree.nodes["Emission"].inputs["Strength"].default_value = -3
+    parts.world((0.5, 0, 0.25)).node_tree.nodes["Background"].inputs["Strength"].default_value = -2
+    recording = record()
+    lights = {name: recording.light(name)["intensity"] for name in ("power", "nodes")}
+    return lights | {"world": recording.world}
 
 
 def _worlds() -> Any:

@@ -154,6 +154,7 @@ def _nearest() -> None:
     ramp = feed(shader("ramp", "ShaderNodeBsdfDiffuse"), "Color", "ShaderNodeValToRGB")
     ramp.name = "Ramp"
     ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (0, 0, 0, 1), (1, 0, 0.5, 1)
+    feed(ramp, "Fac", "ShaderNodeTexGradient", output=1)
     feed(shader("rough_noise", "ShaderNodeBsdfGlossy", Roughness=0.3), "Roughness", "ShaderNodeTexNoise")
     feed(shader("bump", "ShaderNodeBsdfDiffuse", Color=RED), "Normal", "ShaderNodeBump")
     shader("bubble", "ShaderNodeBsdfPrincipled", IOR=0.5)

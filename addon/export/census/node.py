@@ -1,0 +1,167 @@
+"""Shader nodes: their settings, and their inputs by identifier.
+
+No table is a node that is not known: it is reported as a whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .table import Table, split_mark
+
+NODE = {
+    "Node": Table(
+        used="type mute inputs outputs internal_links name bl_idname bl_label",
+        no_meaning="""
+        location width width_hidden height dimensions label parent use_custom_color color select show_options
+        show_preview hide show_texture bl_description bl_icon bl_static_type bl_width_default bl_width_min bl_width_max
+        bl_height_default bl_height_min bl_height_max location_absolute color_tag warning_propagation panel_states@5.2
+        """,
+    ),
+    "ShaderNodeBsdfPrincipled": Table(used="distribution", no_meaning="subsurface_method"),
+    "ShaderNodeBsdfAnisotropic": Table(used="distribution"),
+    "ShaderNodeBsdfGlossy": Table(used="distribution"),
+    "ShaderNodeBsdfGlass": Table(used="distribution"),
+    "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
+    "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
+    "ShaderNodeOutputWorld": Table(used="is_active_output target"),
+    "ShaderNodeOutputLight": Table(used="is_active_output target"),
+    "ShaderNodeMath": Table(used="operation use_clamp"),
+    "ShaderNodeVectorMath": Table(used="operation"),
+    "ShaderNodeMix": Table(used="data_type factor_mode blend_type clamp_factor clamp_result"),
+    "ShaderNodeMixRGB": Table(used="blend_type use_clamp", no_meaning="use_alpha"),
+    "ShaderNodeCombineColor": Table(used="mode"),
+    "ShaderNodeSeparateColor": Table(used="mode"),
+    "ShaderNodeClamp": Table(used="clamp_type"),
+    "ShaderNodeMapRange": Table(used="clamp interpolation_type data_type"),
+    "ShaderNodeRGBCurve": Table(used="mapping"),
+    "ShaderNodeFloatCurve": Table(used="mapping"),
+    "ShaderNodeValToRGB": Table(used="color_ramp"),
+    # These are reported whenever they are met.
+    "ShaderNodeTexImage": Table(
+        used="image",
+        no_meaning="""
+        texture_mapping color_mapping projection interpolation projection_blend extension image_user
+        """,
+    ),
+    "ShaderNodeTexEnvironment": Table(
+        used="image", no_meaning="texture_mapping color_mapping projection interpolation image_user"
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """The inputs of one kind of node. Each list is of identifiers between commas."""
+
+    used: str = ""
+    linked: str = ""  # left out where something is linked to them
+    left_out: tuple[tuple[str, float], ...] = ()  # left out but at this value, which changes nothing
+    no_meaning: str = ""  # without what is reported anyway
+
+    def names(self) -> dict[str, str]:
+        """Each identifier, with the Blender version it is marked with or ""."""
+        listed = [*_listed(f"{self.used},{self.linked},{self.no_meaning}"), *(entry for entry, _ in self.left_out)]
+        return dict(split_mark(entry) for entry in listed)
+
+    def neutral_values(self) -> Iterator[tuple[str, float | None]]:
+        """The identifiers of what is left out, with the value that changes nothing; None where only a link counts."""
+        for entry in _listed(self.linked):
+            yield split_mark(entry)[0], None
+        for entry, neutral in self.left_out:
+            yield split_mark(entry)[0], neutral
+
+
+def _listed(names: str) -> list[str]:
+    return [name.strip() for name in names.split(",") if name.strip()]
+
+
+_THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
+
+INPUTS = {
+    "ShaderNodeBsdfPrincipled": Inputs(
+        used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
+        "Emission Color, Emission Strength",
+        linked="Normal",
+        left_out=(
+            ("Subsurface Weight", 0.0),
+            ("Subsurface", 0.0),
+            ("Transmission Weight", 0.0),
+            ("Transmission", 0.0),
+            ("Coat Weight", 0.0),
+            ("Clearcoat", 0.0),
+            ("Sheen Weight", 0.0),
+            ("Sheen", 0.0),
+            ("Anisotropic", 0.0),
+            ("Diffuse Roughness", 0.0),
+            ("Thin Film Thickness", 0.0),
+            ("Alpha", 1.0),
+        ),
+        no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
+        "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
+        "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Transmission Roughness, Thin Wall@5.2,"
+        "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
+    ),
+    "ShaderNodeBsdfDiffuse": Inputs("Color", "Normal", (("Roughness", 0.0),), "Weight"),
+    "ShaderNodeBsdfGlossy": Inputs("Color, Roughness", "Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfAnisotropic": Inputs(
+        "Color, Roughness", "Normal", (("Anisotropy", 0.0),), "Rotation, Tangent, Weight"
+    ),
+    "ShaderNodeBsdfMetallic": Inputs(
+        "Base Color, Edge Tint, Roughness",
+        "Normal",
+        (("Anisotropy", 0.0), *_THIN_FILM),
+        "IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
+    ),
+    "ShaderNodeBsdfGlass": Inputs(  # which is reported whenever it is met
+        "Color, Roughness, IOR",
+        no_meaning="Normal, Weight, Thin Film Thickness@5.0, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3,"
+        "Tangent@5.3",
+    ),
+    "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
+    "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
+    "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
+    "ShaderNodeMixShader": Inputs("Fac, Shader, Shader_001"),
+    "ShaderNodeAddShader": Inputs("Shader, Shader_001"),
+    "ShaderNodeOutputMaterial": Inputs("Surface", "Volume, Displacement", no_meaning="Thickness"),
+    "ShaderNodeOutputWorld": Inputs("Surface", "Volume"),
+    "ShaderNodeOutputLight": Inputs("Surface"),
+    "ShaderNodeRGB": Inputs(),
+    "ShaderNodeValue": Inputs(),
+    "ShaderNodeMath": Inputs("Value, Value_001, Value_002"),
+    "ShaderNodeVectorMath": Inputs("Vector, Vector_001, Vector_002, Scale"),
+    "ShaderNodeMix": Inputs(
+        "Factor_Float, Factor_Vector, A_Float, B_Float, A_Vector, B_Vector, A_Color, B_Color",
+        no_meaning="A_Rotation, B_Rotation",
+    ),
+    "ShaderNodeMixRGB": Inputs("Fac, Color1, Color2"),
+    "ShaderNodeBlackbody": Inputs("Temperature"),
+    "ShaderNodeCombineColor": Inputs("Red, Green, Blue"),
+    "ShaderNodeCombineRGB": Inputs("R, G, B"),
+    "ShaderNodeCombineHSV": Inputs("H, S, V"),
+    "ShaderNodeCombineXYZ": Inputs("X, Y, Z"),
+    "ShaderNodeSeparateColor": Inputs("Color"),
+    "ShaderNodeSeparateRGB": Inputs("Image"),
+    "ShaderNodeSeparateHSV": Inputs("Color"),
+    "ShaderNodeSeparateXYZ": Inputs("Vector"),
+    "ShaderNodeLightFalloff": Inputs("Strength, Smooth"),
+    "ShaderNodeClamp": Inputs("Value, Min, Max"),
+    "ShaderNodeMapRange": Inputs(
+        "Value, From Min, From Max, To Min, To Max, Steps, Vector, From_Min_FLOAT3, From_Max_FLOAT3, To_Min_FLOAT3,"
+        "To_Max_FLOAT3, Steps_FLOAT3"
+    ),
+    "ShaderNodeGamma": Inputs("Color, Gamma"),
+    "ShaderNodeInvert": Inputs("Fac, Color"),
+    "ShaderNodeBrightContrast": Inputs("Color, Bright, Contrast"),
+    "ShaderNodeHueSaturation": Inputs("Hue, Saturation, Value, Fac, Color"),
+    "ShaderNodeRGBCurve": Inputs("Fac, Color"),
+    "ShaderNodeFloatCurve": Inputs("Factor, Value"),
+    "ShaderNodeValToRGB": Inputs("Fac"),
+    "ShaderNodeRGBToBW": Inputs("Color"),
+    # These are reported whenever they are met.
+    "ShaderNodeFresnel": Inputs("IOR", no_meaning="Normal"),
+    "ShaderNodeLayerWeight": Inputs("Blend", no_meaning="Normal"),
+    "ShaderNodeTexImage": Inputs(no_meaning="Vector"),
+    "ShaderNodeTexEnvironment": Inputs(no_meaning="Vector"),
+}

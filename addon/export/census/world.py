@@ -1,0 +1,37 @@
+"""Worlds."""
+
+from __future__ import annotations
+
+from .table import LeftOut, Table
+
+WORLD = {
+    "World": Table(
+        used="color node_tree use_nodes animation_data",
+        parts="cycles cycles_visibility",
+        # EEVEE's sun, the mist and light group passes, and what fast GI takes.
+        no_meaning="""
+        light_settings mist_settings lightgroup use_eevee_finite_volume probe_resolution sun_threshold sun_angle
+        use_sun_shadow sun_shadow_maximum_resolution sun_shadow_filter_radius use_sun_shadow_jitter
+        sun_shadow_jitter_overblur
+        """,
+    ),
+    "CyclesWorldSettings": Table(
+        left_out=(
+            LeftOut("max_bounces", 1024, "it lights every bounce"),
+            LeftOut("use_shadows@5.2", True, "it casts them", what="a world without shadows is"),
+        ),
+        # How it is sampled, and its volume, which is reported by its node.
+        no_meaning="""
+        name is_caustics_light sampling_method sample_map_resolution homogeneous_volume volume_sampling
+        volume_interpolation volume_step_size
+        """,
+    ),
+    "CyclesVisibilitySettings": Table(
+        left_out=(
+            LeftOut("camera", True, "the camera sees it", what="Camera Visibility is"),
+            LeftOut("diffuse", True, "it lights diffuse surfaces too", what="Diffuse Visibility is"),
+            LeftOut("glossy", True, "it lights glossy surfaces too", what="Glossy Visibility is"),
+        ),
+        no_meaning="name transmission shadow scatter",
+    ),
+}
