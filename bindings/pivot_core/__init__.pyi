@@ -65,7 +65,7 @@ class Material:
 
 class SphereLight:
     """
-    A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi).
+    A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk turned to each point it lights instead, Blender's soft falloff.
     """
     def __init__(
         self,
@@ -76,11 +76,12 @@ class SphereLight:
         intensity: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
+        facing_disk: bool = False,
     ) -> None: ...
 
 class SpotLight:
     """
-    A sphere that shines along direction, with a smooth step from the cone's edge inwards over the share blend of its versine.
+    A sphere that shines along direction, with a smooth step from the cone's edge inwards over the share blend of its versine; with cosine, times the cosine from the axis.
     """
     def __init__(
         self,
@@ -96,6 +97,8 @@ class SpotLight:
         ],
         cos_half_angle: typing.SupportsFloat | typing.SupportsIndex,
         blend: typing.SupportsFloat | typing.SupportsIndex,
+        facing_disk: bool = False,
+        cosine: bool = False,
     ) -> None: ...
 
 class SunLight:
@@ -319,6 +322,8 @@ class Session:
     """
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
+
+    bytes_per_pixel: typing.ClassVar[int] = 112
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """

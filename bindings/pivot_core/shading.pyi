@@ -49,6 +49,7 @@ METHODS: tuple = (
     "SLICES_5",
     "SLICES_6",
     "SLICES_8",
+    "BEAM_LAYERS",
     "AREA_POINTS",
     "LOBE_DIRECTIONS",
     "SPTD",
