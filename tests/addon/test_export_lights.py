@@ -152,6 +152,16 @@ def test_negative_light_is_handed_on(cases: Any) -> None:
     close(cases["negative"]["world"], (-1, 0, -0.5))
 
 
+def test_light_that_varies_is_reported(cases: Any) -> None:
+    close(cases["varying"]["far"], (2, 2, 2))
+    close(cases["varying"]["seen"], (1, 1, 1))
+    assert cases["varying"]["reports"] == [
+        "Pivot: light 'far', node 'Light Falloff': falloff other than quadratic and smoothing are not supported, "
+        "it falls with the square of distance",
+        "Pivot: light 'seen', node 'Light Path': Light Path nodes are not supported, it stands for a constant",
+    ]
+
+
 def test_world(cases: Any) -> None:
     worlds = cases["worlds"]
     close(worlds["none"], (0, 0, 0))

@@ -15,20 +15,18 @@ def _is_transparent(cycles: Any) -> bool:
     return cycles.id_data.render.film_transparent
 
 
-def _limits_bounces(name: str, default: int) -> Any:
-    """A limit of Cycles' that is below Blender's default and below Pivot's Max Bounces."""
-    return lambda cycles: getattr(cycles, name) < min(default, cycles.id_data.pivot.max_bounces)
+def _bounce_limit(name: str, default: int, what: str) -> LeftOut:
+    """A limit of Cycles' that counts where it is below Blender's default and below Pivot's Max Bounces."""
+
+    def counts(cycles: Any) -> bool:
+        return getattr(cycles, name) < min(default, cycles.id_data.pivot.max_bounces)
+
+    return LeftOut(name, lambda _: False, "Pivot's own Max Bounces counts", what, counts)
 
 
 def _missing_passes(names: str) -> tuple[LeftOut, ...]:
     return tuple(LeftOut(name, False, "the picture lacks it") for name in names.split())
 
-
-def _never(_: Any) -> bool:
-    return False
-
-
-_ITS_OWN_BOUNCES = "Pivot's own Max Bounces counts"
 
 SCENE = {
     "Scene": Table(
@@ -88,10 +86,10 @@ SCENE = {
             LeftOut("film_exposure", 1.0, "the picture is as bright as with 1"),
             LeftOut("film_transparent_glass", False, "it is opaque", when=_is_transparent),
             LeftOut("pixel_filter_type", "BLACKMAN_HARRIS", "it is Blackman-Harris"),
-            LeftOut("filter_width", 1.5, "the output's own Filter Size counts"),
-            LeftOut("max_bounces", _never, _ITS_OWN_BOUNCES, when=_limits_bounces("max_bounces", 12)),
-            LeftOut("diffuse_bounces", _never, _ITS_OWN_BOUNCES, when=_limits_bounces("diffuse_bounces", 4)),
-            LeftOut("glossy_bounces", _never, _ITS_OWN_BOUNCES, when=_limits_bounces("glossy_bounces", 4)),
+            LeftOut("filter_width", 1.5, "the output's own Filter Size counts", what="Cycles' Filter Width is"),
+            _bounce_limit("max_bounces", 12, what="Cycles' Max Bounces is"),
+            _bounce_limit("diffuse_bounces", 4, what="Cycles' limit of Diffuse Bounces is"),
+            _bounce_limit("glossy_bounces", 4, what="Cycles' limit of Glossy Bounces is"),
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),

@@ -14,7 +14,13 @@ HAS_EXPOSURE = bpy.app.version >= (4, 4)  # and normalize, temperature
 
 
 def main(folder: Path) -> Any:
-    return {"lights": _lights(), "reports": _reports(), "worlds": _worlds(), "negative": _negative()}
+    return {
+        "lights": _lights(),
+        "reports": _reports(),
+        "worlds": _worlds(),
+        "negative": _negative(),
+        "varying": _varying(),
+    }
 
 
 def _lights() -> Any:
@@ -114,6 +120,22 @@ def _negative() -> Any:
     recording = record()
     lights = {name: recording.light(name)["intensity"] for name in ("power", "nodes")}
     return lights | {"world": recording.world}
+
+
+def _varying() -> Any:
+    """Lights whose nodes vary with distance and by ray: the intensity of each, and what is said."""
+    parts.clear()
+    parts.camera()
+    for name, kind, output in (("far", "LightFalloff", "Linear"), ("seen", "LightPath", "Is Camera Ray")):
+        data = parts.light(name, "POINT", energy=4 * math.pi).data
+        data.use_nodes = True
+        tree = data.node_tree
+        node = tree.nodes.new(f"ShaderNode{kind}")
+        if kind == "LightFalloff":
+            node.inputs["Strength"].default_value = 2
+        tree.links.new(node.outputs[output], tree.nodes["Emission"].inputs["Strength"])
+    recording = record()
+    return {"reports": recording.reports} | {name: recording.light(name)["intensity"] for name in recording.lights}
 
 
 def _worlds() -> Any:
