@@ -1,4 +1,4 @@
-// What module.cpp calls, one function per bind_*.cpp.
+// What formulas.cpp and module.cpp call, one function per bind_*.cpp.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
+import pivot_core
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -280,11 +281,20 @@ def stub(folder: Path, name: str, script: str) -> None:
     path.chmod(0o755)
 
 
+# An apt-get that is asked for sizes alone.
+SIZES = """if [[ $1 == --assume-no ]]; then
+  echo 'Need to get 277 MB of archives.'
+  echo 'After this operation, 1077 MB of additional disk space will be used.'
+  exit 1
+fi
+"""
+
+
 def test_missing_packages_are_installed_with_fresh_lists(tmp_path: Path) -> None:
     """A first install without package lists fails; it is tried again after an update."""
     calls = tmp_path / "calls"
     stub(tmp_path, "dpkg-query", "echo 'installed cmake'")
-    stub(tmp_path, "apt-get", f'echo "$@" >> {calls}; [[ $* == *update* ]] || [[ $(wc -l < {calls}) -gt 1 ]]')
+    stub(tmp_path, "apt-get", f'{SIZES}echo "$@" >> {calls}; [[ $* == *update* ]] || [[ $(wc -l < {calls}) -gt 1 ]]')
     stub(tmp_path, "sudo", '"$@"')
     ran = run("blender", "--version", PATH=f"{tmp_path}:{os.environ['PATH']}")
     assert ran.returncode == 0, ran.stderr
@@ -292,16 +302,45 @@ def test_missing_packages_are_installed_with_fresh_lists(tmp_path: Path) -> None
     assert ["install" in installs[0], "update" in installs[1], "install" in installs[2]] == [True, True, True]
     assert "libembree-dev" in installs[0]
     assert "cmake" not in installs[0]
+    assert "Their size: 277 MB to download, 1077 MB on disk" in ran.stderr
 
 
 def test_a_failed_install_names_the_fix(tmp_path: Path) -> None:
     stub(tmp_path, "dpkg-query", "true")
-    stub(tmp_path, "apt-get", "echo 'E: Unable to locate package'; exit 100")
+    stub(tmp_path, "apt-get", SIZES + "echo 'E: Unable to locate package'; exit 100")
     stub(tmp_path, "sudo", '"$@"')
     ran = run("blender", "--version", PATH=f"{tmp_path}:{os.environ['PATH']}")
     assert ran.returncode != 0
     assert "E: Unable to locate package" in ran.stderr
     assert "apt-get install cmake" in ran.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("variables", "fix"),
+    [
+        ({"PIP_NO_INDEX": "1"}, "change bindings/requirements.txt to what Python 3"),
+        ({"PIP_INDEX_URL": "http://127.0.0.1:9/", "PIP_RETRIES": "1"}, "check the network"),
+    ],
+    ids=["no such package", "no network"],
+)
+def test_a_failed_pip_names_the_fix(tmp_path: Path, variables: dict[str, str], fix: str) -> None:
+    """What PyPI does not have for this Python is no fault of the network."""
+    shutil.copy(RUN, tmp_path)
+    shutil.copytree(ROOT / "bindings", tmp_path / "bindings")
+    stub(tmp_path, "dpkg-query", 'for package; do echo "installed $package"; done')
+    path = f"{tmp_path}:{os.environ['PATH']}"
+    ran = run("blender", command=tmp_path / "run", PATH=path, PIP_FIND_LINKS="", **variables)
+    assert ran.returncode != 0
+    assert fix in ran.stderr.splitlines()[-1]
+
+
+def test_a_render_builds_for_this_cpu_alone_and_tests_keep_warnings_out() -> None:
+    """`ninja -n` of what `./run render` builds names one level; this configured build has -Werror."""
+    command = ["ninja", "-C", ROOT / "build", "-t", "query", f"render_{pivot_core.arch}"]
+    asked = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert f"_core_{pivot_core.arch}" in asked
+    assert set(re.findall(r"_(?:core|formulas)_v\d", asked)) == {f"_core_{pivot_core.arch}"}
+    assert "-Werror" in (ROOT / "build/compile_commands.json").read_text()
 
 
 def progress(tmp_path: Path, lines: list[str]) -> subprocess.CompletedProcess[str]:

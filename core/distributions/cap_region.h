@@ -111,9 +111,7 @@ T by_complements(const std::array<Cap<T>, N>& caps, T whole, const F& f) {
             return whole - f(replaced);
         } else {
             std::array<Cap<T>, N - 1> rest;
-            std::copy(caps.begin(), caps.begin() + static_cast<std::ptrdiff_t>(k), rest.begin());
-            std::copy(caps.begin() + static_cast<std::ptrdiff_t>(k) + 1, caps.end(),
-                      rest.begin() + static_cast<std::ptrdiff_t>(k));
+            for (size_t i = 0; i < N - 1; ++i) rest[i] = caps[i < k ? i : i + 1];
             return max(by_complements(rest, whole, f) - by_complements(replaced, whole, f), T(0));
         }
     }

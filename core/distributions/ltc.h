@@ -82,7 +82,7 @@ inline double cone_cosine_integral(const DiagonalCone& cone, std::span<const Vec
     for (size_t i = 0; i < planes.size(); ++i) {
         const Vec3<double>& n = planes[i];
         const double height = dot(cone.b, n), h1 = dot(cone.a1, n), h2 = dot(cone.a2, n);
-        const double swing = std::hypot(h1, h2);
+        const double swing = sqrt(h1 * h1 + h2 * h2);  // hypot would ask for glibc 2.35
         if (height <= -swing) return 0.0;
         if (height >= swing) continue;
         const double top = atan2(h2, h1), half = acos(-height / swing);

@@ -56,7 +56,7 @@ using WordBatch = xsimd::batch<std::uint32_t>;
 
 /// [0, 1) with 24 bits.
 inline Batch to_unit(const WordBatch& x) {
-    return xsimd::to_float(xsimd::bitwise_cast<xsimd::batch<std::int32_t>>(x >> 8)) * Batch(0x1p-24f);
+    return xsimd::to_float(std::bit_cast<xsimd::batch<std::int32_t>>(x >> 8)) * Batch(0x1p-24f);
 }
 
 /// A value per lane, for gathering and scattering.

@@ -1,14 +1,13 @@
 """The Blenders this machine has, and how a test runs a script in one.
 
-A host is Debian's `blender` on the PATH, or the bpy module of the Python that runs pytest. Scripts live in inside/;
-each has main(folder) and runs in a Blender of its own, with the addon enabled and an empty scene.
+A host is Debian's `blender` on the PATH, or the bpy module of the Python that runs pytest and of those in
+PIVOT_TEST_PYTHONS, paths with a colon between. Scripts live in inside/; each has main(folder) and runs in a Blender of
+its own, with the addon enabled and an empty scene.
 """
 
 from __future__ import annotations
 
 import functools
-import importlib.metadata
-import importlib.util
 import json
 import os
 import re
@@ -29,6 +28,7 @@ TIMEOUT_S = 300
 class Host:
     command: tuple[str, ...]  # what a script's path and arguments follow
     version: tuple[int, int]
+    kind: str  # as the tests' header says it
 
     def __str__(self) -> str:
         return f"{self.version[0]}.{self.version[1]}"
@@ -80,8 +80,16 @@ def hosts() -> tuple[Host, ...]:
         version = re.search(r"Blender (\d+)\.(\d+)", text)
         assert version, text
         command = (blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python")
-        found.append(Host(command, (int(version[1]), int(version[2]))))
-    if importlib.util.find_spec("bpy"):
-        major, minor, *_ = importlib.metadata.version("bpy").split(".")
-        found.append(Host((sys.executable,), (int(major), int(minor))))
-    return tuple(found)
+        found.append(Host(command, (int(version[1]), int(version[2])), blender))
+    others = os.environ.get("PIVOT_TEST_PYTHONS", "")
+    return (*found, *filter(None, map(bpy_host, (sys.executable, *filter(None, others.split(":"))))))
+
+
+def bpy_host(python: str) -> Host | None:
+    """The bpy of a Python, if it has one."""
+    ask = "import sys, importlib.metadata as m; print(*sys.version_info[:2], *m.version('bpy').split('.')[:2])"
+    asked = subprocess.run([python, "-c", ask], capture_output=True, text=True)
+    if asked.returncode:
+        return None
+    *of_python, major, minor = asked.stdout.split()
+    return Host((python,), (int(major), int(minor)), f"bpy for Python {'.'.join(of_python)}")

@@ -200,6 +200,7 @@ _recordings: list[Recording] = []
 @contextmanager
 def _in_place_of_the_core() -> Iterator[None]:
     core: Any = ModuleType("pivot_core")
+    core.version = sys.modules["pivot.core"].VERSION
     for part in (Material, SphereLight, SpotLight, SunLight, AreaLight, RenderSettings, Scene, Session):
         setattr(core, part.__name__, part)
     engine: Any = sys.modules["pivot.engine"]
