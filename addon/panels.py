@@ -95,6 +95,7 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
             budget.prop(pivot, "error_budget")
             layout.prop(pivot, "light_sampling")
             layout.prop(pivot, "max_bounces")
+            layout.prop(pivot, "clamp_indirect")
             layout.prop(pivot, "seed")
         else:
             layout.prop(pivot, "analytic_method")

@@ -46,6 +46,16 @@ class PivotSettings(bpy.types.PropertyGroup):
     max_bounces: IntProperty(
         name="Max Bounces", description="Bounces of indirect light; 0 is direct light only", default=4, min=0, max=1024
     )
+    clamp_indirect: FloatProperty(
+        name="Clamp Indirect",
+        description=(
+            "The most that light which bounced may add to a sample at once: fewer fireflies, and a little less light. "
+            "0 is no bound"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=100.0,
+    )
     light_sampling: EnumProperty(
         name="Light Sampling",
         description="How rays towards the lights are chosen; every choice converges to one picture",

@@ -1,8 +1,8 @@
 """Pivot's C++ core: distributions, scenes and rendering.
 
 The core is built once per x86-64 level; importing this package loads the best build that this CPU runs.
-Set PIVOT_ARCH to "v2" or "v3" to force one. The formulas over arrays (distributions, bsdf, tables, shading, sampling, film) are a
-module of their own: the Blender extension comes without it.
+Set PIVOT_ARCH to "v2" or "v3" to force one. The formulas over arrays (distributions, bsdf, film, sampling, shading,
+tables) are a module of their own: the Blender extension comes without it.
 """
 
 import importlib

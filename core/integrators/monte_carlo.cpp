@@ -42,6 +42,12 @@ Rgb emission_met(const Scene& scene, LightSampling strategy, const Vertex& verte
     return emission * bsdf_weight(scene, strategy, vertex, *index, *place, bsdf_pdf_omega);
 }
 
+/// Light that a path brings by way of a vertex: what bounced may be bounded, at the price of some of it.
+void add_contribution(const RenderSettings& settings, std::uint32_t bounce, const Rgb& light, Rgb& radiance) {
+    const float size = mean_component(abs(light)), limit = settings.clamp_indirect;
+    radiance += bounce > 0 && limit > 0.0f && size > limit ? light * (limit / size) : light;
+}
+
 /// Paths that have reached the same bounce: their vertices side by side, for batches and packets.
 struct Paths {
     std::vector<Vertex> vertices;
@@ -102,11 +108,13 @@ Paths start_paths(const Scene& scene, const RenderSettings& settings, std::span<
 }
 
 /// The light that reaches each vertex straight from the lights.
-void add_light(const Scene& scene, const RenderSettings& settings, Paths& paths, std::span<Sample> samples) {
+void add_light(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, Paths& paths,
+               std::span<Sample> samples) {
     std::vector<Rgb> direct(paths.size(), Rgb(0.0f));
     paths.shares.assign(paths.size(), 0);
     add_direct_light(scene, settings.light_sampling, paths.vertices, direct, paths.shares);
-    for (std::size_t i = 0; i < paths.size(); ++i) samples[paths.sample[i]].radiance += paths.throughput[i] * direct[i];
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        add_contribution(settings, bounce, paths.throughput[i] * direct[i], samples[paths.sample[i]].radiance);
 }
 
 /// A BSDF sample of each path: its ray, and what the path is worth along it.
@@ -156,14 +164,15 @@ Paths next_vertices(const Scene& scene, const RenderSettings& settings, const Pa
         const Vertex& vertex = paths.vertices[i];
         const Ray& ray = scattered.rays[i];
         Rgb throughput = paths.throughput[i];
-        Rgb& radiance = samples[paths.sample[i]].radiance;
+        const auto add = [&](const Rgb& light) {
+            add_contribution(settings, bounce, throughput * light, samples[paths.sample[i]].radiance);
+        };
         if (paths.shares[i]) {
             const float reached_m = hits[i] ? hits[i]->distance_m : ray.far_m;
-            radiance += throughput * lights_met(scene, settings.light_sampling, vertex, ray.direction,
-                                                scattered.pdf_omega[i], reached_m);
+            add(lights_met(scene, settings.light_sampling, vertex, ray.direction, scattered.pdf_omega[i], reached_m));
         }
         if (!hits[i]) {
-            radiance += throughput * scene.world();
+            add(scene.world());
             continue;
         }
         if (bounce >= first_roulette_bounce) {
@@ -174,8 +183,8 @@ Paths next_vertices(const Scene& scene, const RenderSettings& settings, const Pa
         }
         const SurfacePoint point = scene.surface_point(ray, *hits[i]);
         if (point.material->is_emissive())
-            radiance += throughput * emission_met(scene, settings.light_sampling, vertex, ray.direction,
-                                                  scattered.pdf_omega[i], *hits[i], point.material->emission);
+            add(emission_met(scene, settings.light_sampling, vertex, ray.direction, scattered.pdf_omega[i], *hits[i],
+                             point.material->emission));
         if (bounce < settings.max_bounces)
             next.add(make_vertex(scene, vertex.sampler, point, bounce + 1), throughput, paths.sample[i]);
     }
@@ -188,7 +197,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
     Paths paths = start_paths(scene, settings, camera_rays, samplers, samples);
     for (std::uint32_t bounce = 0; paths.size() > 0; ++bounce) {
-        add_light(scene, settings, paths, samples);
+        add_light(scene, settings, bounce, paths, samples);
         const bool is_last = bounce == settings.max_bounces;
         const Scattered scattered = scatter(paths, is_last && !scene.has_unsampled_light());
         paths = next_vertices(scene, settings, paths, scattered, bounce, samples);

@@ -74,6 +74,7 @@ class RenderSettings:
     adaptive: bool
     seed: int
     max_bounces: int
+    clamp_indirect: float
     light_sampling: str
     error_budget_percent: float
     analytic_method: str
