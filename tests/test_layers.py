@@ -25,7 +25,18 @@ CORE_ROWS = (
     ("render",),
 )
 ROW_OF = {folder: row for row, folders in enumerate(CORE_ROWS) for folder in folders}
-CORE_PROPERTIES = {"energy", "identities", "oracles", "sample_weights", "samplers", "session", "stability"}
+CORE_PROPERTIES = {
+    "analytic_error",
+    "energy",
+    "identities",
+    "mesh_lights",
+    "negative_light",
+    "oracles",
+    "sample_weights",
+    "samplers",
+    "session",
+    "stability",
+}
 BLENDER_MODULES = {
     "bpy",
     "bpy_extras",
