@@ -32,7 +32,7 @@ def _lights() -> Any:
     light("scaled", "POINT", energy=10, shadow_soft_size=0.3).scale = (5, 5, 5)
     cone: dict[str, Any] = {"spot_size": math.radians(50), "spot_blend": 0.2}
     light("spot", "SPOT", (0, 0, 2), energy=40, shadow_soft_size=0.1, **cone)
-    if hasattr(bpy.types.PointLight, "use_soft_falloff"):
+    if "use_soft_falloff" in bpy.types.PointLight.bl_rna.properties:
         light("sphere", "POINT", energy=10, use_soft_falloff=False)
         light("sphere_spot", "SPOT", energy=40, use_soft_falloff=False)
     light("turned", "SPOT", energy=40, **cone).rotation_euler = (math.pi / 2, 0, 0)
