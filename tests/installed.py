@@ -52,6 +52,12 @@ def render(scene_path: str, picture: Path) -> str:
     return ""
 
 
+def mean(picture: Path) -> float:
+    """Of its red, green and blue, in 0..1."""
+    pixels = bpy.data.images.load(str(picture)).pixels[:]
+    return 4 / 3 * sum(value for i, value in enumerate(pixels) if i % 4 < 3) / len(pixels)
+
+
 def validate(zip_path: str) -> str:
     """What the extension tool of this Blender has against the zip."""
     tool = Path(bpy.utils.system_resource("SCRIPTS"), "addons_core/bl_pkg/cli/blender_ext.py")
@@ -70,6 +76,7 @@ def main(zip_path: str, newer_zip: str, scene_path: str, folder: Path) -> Any:
     result: dict[str, Any] = {"invalid": validate(zip_path) if IS_EXTENSION else "", "before": files(user)}
     install(zip_path)
     result["error"] = render(scene_path, folder / "picture.png")
+    result["mean"] = mean(folder / "picture.png")
     (core,) = (m for name, m in sys.modules.items() if name.rpartition(".")[2] == "pivot_core")
     result["core"], result["level"] = core.__file__, core.arch
     install(newer_zip)

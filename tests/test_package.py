@@ -59,7 +59,9 @@ def installed(request: pytest.FixtureRequest, zips: list[Path], tmp_path_factory
     done = subprocess.run(
         [*command, zip_path, upgrade, SCENE, folder], env=kept | user, capture_output=True, text=True, timeout=300
     )
-    assert done.returncode == 0, done.stdout + done.stderr
+    # An executable exits with 1 after any render that failed, as the upgrade's does.
+    assert done.returncode in (0, 1), done.stdout + done.stderr
+    assert (folder / "result.json").exists(), done.stdout + done.stderr
     return json.loads((folder / "result.json").read_text()) | {"folder": folder, "is_extension": is_extension}
 
 
@@ -70,7 +72,7 @@ def test_it_is_valid(installed: Any) -> None:
 def test_it_renders_with_the_core_it_brings(installed: Any) -> None:
     assert installed["error"] == ""
     assert Path(installed["core"]).is_relative_to(installed["folder"] / "user")
-    assert (installed["folder"] / "picture.png").stat().st_size > 0
+    assert installed["mean"] == pytest.approx(0.28, abs=0.05)  # of the full picture 0.29, of an empty scene 0.12
 
 
 def test_an_upgrade_asks_for_a_restart_or_renders(installed: Any) -> None:
