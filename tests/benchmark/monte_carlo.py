@@ -2,91 +2,51 @@
 
 ./run python tests/benchmark/monte_carlo.py [--blender PYTHON ...] [--mitsuba PYTHON] [--scenes NAME ...]
 
-relMSE = mean((I - R)^2 / (R^2 + 0.01)) against a converged reference R of the renderer's own, whose noise is
-subtracted; cost = CPU seconds of the render alone, by the difference of two sample counts; efficiency =
-1 / (relMSE x cost). Every figure is the mean of several seeds. Then the same for 10, 100 and 1000 lights of one total
-power. References are kept in build/monte_carlo and used again; --seeds 0 makes those alone. Writes monte_carlo.csv and
+monte_carlo_pictures.py says what is measured, and how. Then the same for 10, 100 and 1000 lights of one total power.
+References are kept in build/monte_carlo and used again; --seeds 0 makes those alone. Writes monte_carlo.csv and
 monte_carlo.png there; says which renderers it skips. monte_carlo_rays.py beside it compares with bare Embree.
 """
 
 from __future__ import annotations
 
 import argparse
-import csv
 import hashlib
-import json
-import os
-import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import monte_carlo_scenes as scenes
 import monte_carlo_table as table
 import numpy as np
+from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot, probe
 from numpy.typing import NDArray
 
-FOLDER = Path(__file__).resolve().parent
-OUTPUT = FOLDER.parents[1] / "build" / "monte_carlo"
-REFERENCE_SAMPLES = {"pivot": 512, "cycles": 256, "mitsuba": 512}
-REFERENCE_PARTS = 4
+OUTPUT = Path(__file__).resolve().parents[2] / "build" / "monte_carlo"
+PIECE_PX = (240, 180)  # of the middle of each image
 
 
-@dataclass(frozen=True)
-class Renderer:
-    """One row of the table. Those of one name share a reference: Cycles 4.5 and 5.0 make the same picture."""
-
-    label: str
-    name: str  # in the worker, and of the reference
-    python: str
-    worker: str
-    settings: dict[str, Any]
-
-    def counts(self, samples: int) -> tuple[int, int]:
-        """The sample counts whose cost is compared; adaptive sampling has a ceiling and no second count."""
-        return (0, 4 * samples) if "adaptive" in self.settings else (samples // 4, samples)
-
-    def renders(self, scene: str) -> bool:
-        """Under many lamps the best alone: joint sampling and light trees."""
-        if scene in scenes.LAMPS and not (self.settings == {} or self.settings.get("light_tree")):
-            return False
-        return self.name == "pivot" or self.name in scenes.SCENES[scene].peers
-
-    def references(self, scene: str) -> list[tuple[str, str, int, int]]:
-        samples = REFERENCE_SAMPLES[self.name] // REFERENCE_PARTS
-        return [(scene, f"{self.name} reference", samples, 1000 + part) for part in range(REFERENCE_PARTS)]
-
-    def pictures(self, scene: str, samples: int, seeds: int) -> list[tuple[str, str, int, int]]:
-        return [(scene, self.label, count, s) for count in self.counts(samples) if count for s in range(seeds)]
-
-
-def probe(python: str, code: str) -> str | None:
-    """What a Python prints for the code, or None where it fails."""
-    done = subprocess.run([python, "-c", code], capture_output=True, text=True)
-    return done.stdout.strip().splitlines()[-1] if done.returncode == 0 and done.stdout.strip() else None
+def renders(renderer: Renderer, scene: str) -> bool:
+    """Under many lamps the best alone: joint sampling and light trees."""
+    if scene in scenes.LAMPS and not (renderer.label == "pivot" or renderer.settings.get("use_light_tree")):
+        return False
+    return renderer.name == "pivot" or renderer.name in scenes.SCENES[scene].peers
 
 
 def find_renderers(blenders: list[str], mitsuba: str) -> list[Renderer]:
     found = []
-    for index, python in enumerate(blenders):
-        version = probe(python, "import bpy; print('.'.join(map(str, bpy.app.version[:2])))")
-        if version is None:
-            print(f"skipped: Cycles of {python}, which has no bpy")
-            continue
-        if index == 0 and probe(python, "import pivot_core; print(1)"):
-            for label, settings in {
-                "pivot": {},
-                "pivot adaptive": {"adaptive": True, "error_budget_percent": 2.0},
-                "pivot MIS": {"light_sampling": "MIS"},
-                "pivot SPTD": {"light_sampling": "SPTD"},
-            }.items():
-                found.append(Renderer(label, "pivot", python, "monte_carlo_blender.py", settings))
-        elif index == 0:
-            print(f"skipped: Pivot, which {python} cannot import")
+    if has_pivot(blenders[0]):
+        for label, settings in {
+            "pivot": {},
+            "pivot adaptive": {"adaptive": True, "error_budget_percent": 2.0},
+            "pivot MIS": {"light_sampling": "MIS"},
+            "pivot SPTD": {"light_sampling": "SPTD"},
+        }.items():
+            settings = scenes.DIRECT_LIGHT["pivot"] | settings
+            found.append(Renderer(label, "pivot", blenders[0], "monte_carlo_blender.py", settings))
+    for python, version in find_blenders(blenders).items():
         for tree in (True, False):
             label = f"cycles {version} {'tree' if tree else 'no tree'}"
-            settings = {"light_tree": tree}
+            settings = scenes.DIRECT_LIGHT["cycles"] | {"use_light_tree": tree}
             found.append(Renderer(label, "cycles", python, "monte_carlo_blender.py", settings))
     version = probe(mitsuba, "import mitsuba; print(mitsuba.__version__)")
     if version is None:
@@ -97,65 +57,11 @@ def find_renderers(blenders: list[str], mitsuba: str) -> list[Renderer]:
     return found
 
 
-def picture_file(scene: str, owner: str, samples: int, seed: int) -> Path:
-    key = hashlib.sha256(repr(scenes.SCENES[scene]).encode()).hexdigest()[:8]
-    return OUTPUT / f"{scene}-{key}" / f"{owner.replace(' ', '_')}-{samples}-{seed}.npz"
+def scene_key(scene: str) -> str:
+    return hashlib.sha256(repr(scenes.SCENES[scene]).encode()).hexdigest()[:8]
 
 
-def render(renderer: Renderer, wanted: list[tuple[str, str, int, int]]) -> None:
-    """The pictures (scene, owner, samples, seed), in one process."""
-    if not wanted:
-        return
-    jobs = []
-    for scene, owner, samples, seed in wanted:
-        file = picture_file(scene, owner, samples, seed)
-        file.parent.mkdir(parents=True, exist_ok=True)
-        common = {"scene": scene, "renderer": renderer.name, "settings": renderer.settings}
-        jobs.append(common | {"samples": samples, "seed": seed, "file": str(file)})
-    worker = [renderer.python, str(FOLDER / renderer.worker)]
-    environment = os.environ | {"PYTHONPATH": str(FOLDER)}
-    subprocess.run(worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment)
-
-
-def load(file: Path) -> tuple[NDArray[np.float64], float]:
-    with np.load(file) as data:
-        return data["image"].astype(np.float64), float(data["cpu_s"])
-
-
-def reference(renderer: Renderer, scene: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean of the parts, and the variance of that mean."""
-    parts = [load(picture_file(*wanted))[0] for wanted in renderer.references(scene)]
-    return np.mean(parts, 0), np.var(parts, 0, ddof=1) / len(parts)
-
-
-def rel_mse(image: NDArray[np.float64], mean: NDArray[np.float64], variance: NDArray[np.float64]) -> float:
-    return float((((image - mean) ** 2 - variance) / (mean**2 + 0.01)).mean())
-
-
-def measure(renderer: Renderer, scene: str, arguments: argparse.Namespace) -> dict[str, Any]:
-    """A row of the table, of pictures that are there."""
-    low, samples = renderer.counts(arguments.samples)
-    few, many = (
-        [load(picture_file(scene, renderer.label, count, seed)) for seed in range(arguments.seeds)] if count else []
-        for count in (low, samples)
-    )
-    mean, variance = reference(renderer, scene)
-    errors = [rel_mse(image, mean, variance) for image, _ in many]
-    cpu_s = [np.median([cpu for _, cpu in images]) if images else 0.0 for images in (few, many)]
-    cost_s = float(cpu_s[1] - cpu_s[0]) / (1 - low / samples)
-    error = float(np.mean(errors))
-    return {
-        "scene": scene,
-        "renderer": renderer.label,
-        "samples": samples,
-        "relMSE": error,
-        "relMSE of seeds": " ".join(f"{e:.3g}" for e in errors),
-        "relMSE of the reference": float((variance / (mean**2 + 0.01)).mean()),
-        "CPU s": cost_s,
-        "Msamples per CPU s": samples * scenes.WIDTH * scenes.HEIGHT / cost_s / 1e6,
-        "efficiency": 1 / (error * cost_s),
-        "mean": float(mean.mean()),
-    }
+GALLERY = Gallery(OUTPUT, scene_key, {"pivot": 512, "cycles": 256, "mitsuba": 512})
 
 
 def write_picture(renderers: list[Renderer], rows: list[dict[str, Any]], samples: int) -> None:
@@ -164,8 +70,9 @@ def write_picture(renderers: list[Renderer], rows: list[dict[str, Any]], samples
     counts = {renderer.label: renderer.counts(samples)[1] for renderer in renderers}
     for row in rows:
         scene, label = row["scene"], row["renderer"]
-        images.setdefault(label, {})[scene] = load(picture_file(scene, label, counts[label], 0))[0]
-    table.write_picture(OUTPUT / "monte_carlo.png", list(dict.fromkeys(row["scene"] for row in rows)), images)
+        images.setdefault(label, {})[scene] = GALLERY.load((scene, label, counts[label], 0))[0]
+    names = list(dict.fromkeys(row["scene"] for row in rows))
+    table.write_picture(OUTPUT / "monte_carlo.png", names, images, PIECE_PX)
 
 
 def main() -> None:
@@ -181,26 +88,17 @@ def main() -> None:
     rows = []
     for scene in arguments.scenes:
         for renderer in renderers:
-            if not renderer.renders(scene):
+            if not renders(renderer, scene):
                 continue
-            pictures = renderer.pictures(scene, arguments.samples, arguments.seeds)
-            missing = [wanted for wanted in renderer.references(scene) if not picture_file(*wanted).exists()]
-            if not arguments.only or renderer.label in arguments.only:
-                render(renderer, missing + pictures)
-            elif missing or not all(picture_file(*wanted).exists() for wanted in pictures):
+            again = not arguments.only or renderer.label in arguments.only
+            seeds = range(arguments.seeds)
+            if not GALLERY.make(renderer, scene, arguments.samples, seeds, again) or not seeds:
                 continue
-            if not arguments.seeds:
-                continue
-            rows.append(measure(renderer, scene, arguments))
-            print(
-                "  ".join(f"{k} {v:.4g}" if isinstance(v, float) else str(v) for k, v in rows[-1].items()), flush=True
-            )
+            rows.append(GALLERY.measure(renderer, scene, arguments.samples, seeds))
+            table.print_row(rows[-1])
     if not rows:
         return
-    with (OUTPUT / "monte_carlo.csv").open("w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
+    table.write_csv(OUTPUT / "monte_carlo.csv", rows)
     table.print_table(rows)
     under_lamps = [row for row in rows if row["scene"] in scenes.LAMPS]
     others = [row for row in rows if row not in under_lamps]

@@ -5,16 +5,15 @@ monte_carlo_blender.py < JOBS: does the jobs (see monte_carlo_worker.py).
 
 from __future__ import annotations
 
-import importlib
 import math
-from pathlib import Path
+from functools import partial
 from typing import Any
 
 import bpy
 
 # isort: split
-import addon_utils
 import mathutils
+import monte_carlo_renderers as renderers
 import monte_carlo_scenes as scenes
 import monte_carlo_worker as worker
 import numpy as np
@@ -88,64 +87,6 @@ def _light(light: scenes.LightSource) -> bpy.types.Object:
     return bpy.data.objects.new(light.kind, data)
 
 
-class Cycles:
-    """settings: light_tree."""
-
-    def __init__(self, scene: scenes.Scene, settings: dict[str, Any]) -> None:
-        build(scene)
-        addon_utils.enable("cycles")
-        blender_scene = bpy.context.scene
-        blender_scene.render.engine = "CYCLES"
-        blender_scene.view_layers[0].use_pass_combined = True
-        image = blender_scene.render.image_settings
-        image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
-        cycles: Any = blender_scene.cycles
-        cycles.device = "CPU"
-        cycles.use_adaptive_sampling = False
-        cycles.use_denoising = False
-        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-        cycles.max_bounces = 0
-        cycles.pixel_filter_type = "BOX"
-        cycles.use_light_tree = settings["light_tree"]
-
-    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
-        bpy.context.scene.cycles.samples = samples
-        bpy.context.scene.cycles.seed = seed
-        path = Path(bpy.app.tempdir) / "picture.exr"
-        bpy.context.scene.render.filepath = str(path)
-        bpy.ops.render.render(write_still=True)
-        image = bpy.data.images.load(str(path))
-        pixels = np.empty(scenes.HEIGHT * scenes.WIDTH * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        bpy.data.images.remove(image)
-        return pixels.reshape(scenes.HEIGHT, scenes.WIDTH, 4)[..., :3]
-
-
-class Pivot:
-    """settings: of pivot_core.RenderSettings."""
-
-    def __init__(self, scene: scenes.Scene, settings: dict[str, Any]) -> None:
-        build(scene)
-        addon_utils.enable("pivot")
-        self._core = importlib.import_module("pivot.core").load()
-        reporter = importlib.import_module("pivot.report").Reporter(print, set())
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        export_scene = importlib.import_module("pivot.export.scene").export_scene
-        self.scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
-        camera: Any = bpy.context.scene.camera
-        view_plane = importlib.import_module("pivot.export.camera").view_plane
-        self.view_plane = view_plane(camera.data, 0.0, scenes.WIDTH, scenes.HEIGHT)
-        self.scene.set_camera(np.array(camera.matrix_world), self.view_plane, scenes.WIDTH, scenes.HEIGHT)
-        self._settings = settings | {"max_bounces": 0, "pixel_filter": "BOX", "filter_width_px": 1.0}
-
-    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
-        settings = self._core.RenderSettings(samples=samples, seed=seed, **self._settings)
-        session = self._core.Session(self.scene, settings)
-        session.start()
-        while not session.wait(60.0):
-            pass
-        return session.read("Combined")[..., :3]
-
-
 if __name__ == "__main__":
-    worker.main({"cycles": Cycles, "pivot": Pivot})
+    builders = {name: partial(build, scene) for name, scene in scenes.SCENES.items()}
+    worker.main({"cycles": renderers.Cycles, "pivot": renderers.Pivot}, builders)

@@ -103,4 +103,4 @@ class Mitsuba:
 
 
 if __name__ == "__main__":
-    worker.main({"mitsuba": Mitsuba})
+    worker.main({"mitsuba": Mitsuba}, scenes.SCENES)

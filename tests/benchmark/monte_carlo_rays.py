@@ -11,8 +11,10 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 
 import monte_carlo_blender as blender
+import monte_carlo_renderers as renderers
 import monte_carlo_scenes as scenes
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +44,7 @@ def least_cpu_s(work: Callable[[], object]) -> float:
 
 def measure(name: str) -> None:
     scene = scenes.SCENES[name]
-    pivot = blender.Pivot(scene, {"threads": 1})
+    pivot = renderers.Pivot(partial(blender.build, scene), scenes.DIRECT_LIGHT["pivot"] | {"threads": 1})
     origin, direction = camera_rays(scene, pivot.view_plane)
     distance_m = pivot.scene.intersect(origin, direction)[0]
     hit = np.isfinite(distance_m)

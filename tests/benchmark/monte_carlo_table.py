@@ -1,7 +1,8 @@
-"""What monte_carlo.py prints of its rows, and its picture: a piece of every renderer's image of every scene."""
+"""What the Monte Carlo benchmarks print and write of their rows, and a picture with a piece of every image."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,6 @@ from pivot.chart.canvas import Canvas
 from pivot.chart.pixels import write_png
 
 Row = dict[str, Any]
-PIECE_PX = (240, 180)  # of the middle of each image
 LABEL_PX, LEFT_PX, GAP_PX = 30, 150, 4
 INK = (0.13, 0.13, 0.15)
 
@@ -33,6 +33,18 @@ def best(found: dict[str, Row], name: str) -> dict[str, Row]:
     """The most efficient of the renderers whose label starts so; empty if there is none."""
     rows = [row for label, row in found.items() if label.startswith(name)]
     return {name: max(rows, key=lambda row: row["efficiency"])} if rows else {}
+
+
+def print_row(row: Row) -> None:
+    cells = (f"{name} {value:.4g}" if isinstance(value, float) else str(value) for name, value in row.items())
+    print("  ".join(cells), flush=True)
+
+
+def write_csv(file: Path, rows: list[Row]) -> None:
+    with file.open("w", newline="") as opened:
+        writer = csv.DictWriter(opened, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def print_table(rows: list[Row]) -> None:
@@ -93,20 +105,23 @@ def print_growth(rows: list[Row]) -> None:
         print(f"{lights:8} {row['renderer']:22} {figures}")
 
 
-def write_picture(file: Path, scene_names: list[str], images: dict[str, dict[str, NDArray[np.float64]]]) -> None:
-    """images: by renderer, then scene. A row a scene, a column a renderer, at the pixels' own size."""
-    width, height = PIECE_PX
-    x0, y0 = (scenes.WIDTH - width) // 2, (scenes.HEIGHT - height) // 2
-    size = (LEFT_PX + len(images) * (width + GAP_PX), LABEL_PX + len(scene_names) * (height + GAP_PX))
+def write_picture(
+    file: Path, lines: list[str], images: dict[str, dict[str, NDArray[np.float64]]], piece_px: tuple[int, int]
+) -> None:
+    """images: by column, then line. Of each its middle of piece_px, width and height, at the pixels' own size."""
+    width, height = piece_px
+    size = (LEFT_PX + len(images) * (width + GAP_PX), LABEL_PX + len(lines) * (height + GAP_PX))
     canvas = Canvas(core.load(), *size)
-    for column, (label, by_name) in enumerate(images.items()):
+    for column, (label, by_line) in enumerate(images.items()):
         x = LEFT_PX + column * (width + GAP_PX)
         canvas.text(x + width / 2, size[1] - 20, label, 18, INK, "CENTER")
-        for line, name in enumerate(scene_names, 1):
-            y = size[1] - LABEL_PX - line * (height + GAP_PX)
-            if name in by_name:
-                canvas.image(x, y, by_name[name][y0 : y0 + height, x0 : x0 + width])
-    for line, name in enumerate(scene_names, 1):
-        y = size[1] - LABEL_PX - line * (height + GAP_PX)
+        for number, name in enumerate(lines, 1):
+            y = size[1] - LABEL_PX - number * (height + GAP_PX)
+            if name in by_line:
+                image = by_line[name]
+                x0, y0 = (image.shape[1] - width) // 2, (image.shape[0] - height) // 2
+                canvas.image(x, y, image[y0 : y0 + height, x0 : x0 + width])
+    for number, name in enumerate(lines, 1):
+        y = size[1] - LABEL_PX - number * (height + GAP_PX)
         canvas.text(LEFT_PX - 8, y + height / 2, name, 16, INK, "RIGHT")
     write_png(file, canvas.render())

@@ -1,4 +1,4 @@
-"""What a renderer's own process does for monte_carlo.py: the jobs of a file, each a picture and its CPU seconds.
+"""What a renderer's own process does for a benchmark: the jobs of a file, each a picture and its CPU seconds.
 
 WORKER < JOBS: JSON, a list of {"scene", "renderer", "settings", "samples", "seed", "file"}, those of one scene and
 settings together. Writes file.npz with image (height, width, 3), bottom row first, and cpu_s.
@@ -10,24 +10,29 @@ import itertools
 import json
 import sys
 import time
-from collections.abc import Callable
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol, TypeVar
 
-import monte_carlo_scenes as scenes
 import numpy as np
 from numpy.typing import NDArray
+
+Scene = TypeVar("Scene")
 
 
 class Renderer(Protocol):
     def render(self, samples: int, seed: int) -> NDArray[np.float32]: ...
 
 
-def main(renderers: dict[str, Callable[[scenes.Scene, dict[str, Any]], Renderer]]) -> None:
+def main(
+    renderers: Mapping[str, Callable[[Scene, dict[str, Any]], Renderer]],
+    scenes: Mapping[str, Scene],
+) -> None:
+    """Both by the names that jobs use."""
     jobs = json.load(sys.stdin)
     for (scene, name, settings), group in itertools.groupby(
         jobs, lambda job: (job["scene"], job["renderer"], job["settings"])
     ):
-        renderer = renderers[name](scenes.SCENES[scene], settings)
+        renderer = renderers[name](scenes[scene], settings)
         renderer.render(1, 0)  # kernels are loaded and compiled, the scene's BVH is built
         for job in group:
             start_s = time.process_time()

@@ -1,0 +1,157 @@
+"""Monte Carlo efficiency of Pivot and Cycles where light bounces: four bounces, Blender's own pixel filter in both.
+
+./run python tests/benchmark/indirect.py [--blender PYTHON ...] [--scenes NAME ...]
+
+480 x 270; nothing clamped, no filter glossy, no adaptive sampling, no denoiser; monte_carlo_pictures.py says what is
+measured, and how. Cycles is the best of each Blender with the light tree on and off, path guiding on and off: all are
+tried with one seed, the best two are measured with all seeds. The ratio without the worst hundredth of the pixels tells
+how much of an error is a few fireflies. The means of the two references are to agree within 1 %, or the line is
+flagged. References are kept in build/indirect and used again. Writes indirect.csv there, and for each scene a PNG of
+both renderers' pictures and references.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import hashlib
+import math
+import sys
+from pathlib import Path
+
+import indirect_scenes as scenes
+import monte_carlo_table as table
+import numpy as np
+from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot
+
+OUTPUT = Path(__file__).resolve().parents[2] / "build" / "indirect"
+WORKER = "indirect_blender.py"
+BOUNCES = 4
+PIVOT = {"max_bounces": BOUNCES, "filter_width_px": 3.0}  # Blender's Filter Size of 1.5: see addon/settings.py
+CYCLES = {f"{kind}_bounces": BOUNCES for kind in ("max", "diffuse", "glossy")}
+MEASURED = 2  # of Cycles' variants
+MEAN_TOLERANCE = 0.01
+
+
+def find_renderers(blenders: list[str], guiding: tuple[bool, ...]) -> list[Renderer]:
+    found = [Renderer("pivot", "pivot", blenders[0], WORKER, PIVOT)] if has_pivot(blenders[0]) else []
+    for python, version in find_blenders(blenders).items():
+        for guided in guiding:
+            for tree in (True, False):
+                label = f"cycles {version} {'tree' if tree else 'no tree'}{' guided' if guided else ''}"
+                settings = CYCLES | {"use_light_tree": tree, "use_guiding": guided}
+                found.append(Renderer(label, "cycles", python, WORKER, settings))
+    return found
+
+
+@functools.cache
+def scene_key(scene: str) -> str:
+    """One for all: they share their builders."""
+    builders = Path(scenes.__file__).read_bytes() + scenes.DEFAULT_SCENE.read_bytes()
+    return hashlib.sha256(builders + repr((PIVOT, CYCLES)).encode()).hexdigest()[:8]
+
+
+def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: argparse.Namespace) -> list[table.Row]:
+    """A row of Pivot, one of each of Cycles' best, with all seeds. A renderer without pictures is left out."""
+
+    def rows(wanted: list[Renderer], seeds: range) -> list[tuple[Renderer, table.Row]]:
+        found = []
+        for renderer in wanted:
+            again = not arguments.only or renderer.label in arguments.only
+            if gallery.make(renderer, scene, arguments.samples, seeds, again):
+                every = range(seeds.stop)  # those before were made before
+                found.append((renderer, gallery.measure(renderer, scene, arguments.samples, every)))
+                table.print_row(found[-1][1])
+        return found
+
+    pivot = rows([renderer for renderer in renderers if renderer.name == "pivot"], range(arguments.seeds))
+    tried = rows([renderer for renderer in renderers if renderer.name == "cycles"], range(1))
+    tried.sort(key=lambda pair: -pair[1]["efficiency"])
+    best = tried[:MEASURED]
+    if arguments.seeds > 1:
+        best = rows([renderer for renderer, _ in best], range(1, arguments.seeds))
+    return [row for _, row in pivot + best]
+
+
+def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row]) -> None:
+    """Each scene's line, then the geometric mean and the least of the efficiency's ratio."""
+    print(
+        f"\n{'':16}{'times':>7} {'without':>8}  {'':24}{'CPU s a sample':>15} {'relMSE':>17} {'of references':>17}"
+        f" {'means':>7}\n{'scene':16}{'Cycles':>7} {'worst 1%':>8}  {'best Cycles':24}{'Pivot  Cycles':>15}"
+        f" {'Pivot  Cycles':>17} {'Pivot  Cycles':>17} {'P / C':>7}"
+    )
+    ratios = []
+    for scene, found in table.by_scene(rows).items():
+        best = table.best(found, "cycles")
+        if "pivot" not in found or not best:
+            continue
+        ours, theirs = found["pivot"], best["cycles"]
+        ratios.append(ours["efficiency"] / theirs["efficiency"])
+        cost = theirs["CPU s"] / ours["CPU s"]
+        trimmed = cost * theirs["relMSE without the worst"] / ours["relMSE without the worst"]
+        each = [f"{ours[name]:8.2e} {theirs[name]:8.2e}" for name in ("relMSE", "relMSE of the reference")]
+        per_sample = f"{ours['CPU s'] / ours['samples']:7.3f} {theirs['CPU s'] / theirs['samples']:7.3f}"
+        print(
+            f"{scene:16}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:24}{per_sample} {each[0]} {each[1]} "
+            f"{means(gallery, renderers, scene)}"
+        )
+    if ratios:
+        print(f"{'geometric mean':16}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':16}{min(ratios):7.2f}")
+
+
+def means(gallery: Gallery, renderers: list[Renderer], scene: str) -> str:
+    """Pivot's mean over Cycles', of the references, and its standard error."""
+    owners = [next(renderer for renderer in renderers if renderer.name == name) for name in ("pivot", "cycles")]
+    (ours, our_variance), (theirs, their_variance) = (gallery.reference(owner, scene) for owner in owners)
+    ratio = ours.mean() / theirs.mean()
+    relative = [v.mean() / v.size / i.mean() ** 2 for i, v in ((ours, our_variance), (theirs, their_variance))]
+    flag = "" if abs(ratio - 1) <= MEAN_TOLERANCE else "  THE MEANS DIFFER"
+    return f"{ratio:7.4f} +- {math.sqrt(sum(relative)):.4f}{flag}"
+
+
+def write_sheet(gallery: Gallery, renderers: list[Renderer], scene: str, rows: list[table.Row]) -> None:
+    """What both made with the samples measured, and their references."""
+    found = table.by_scene(rows)[scene]
+    shown = [found[name] for name in ("pivot",) if name in found] + list(table.best(found, "cycles").values())
+    images = {}
+    for row in shown:
+        renderer = next(renderer for renderer in renderers if renderer.label == row["renderer"])
+        picture = gallery.load((scene, renderer.label, row["samples"], 0))[0]
+        images[renderer.label] = {
+            f"{row['samples']} samples": picture,
+            "reference": gallery.reference(renderer, scene)[0],
+        }
+    lines = list(dict.fromkeys(line for column in images.values() for line in column))
+    table.write_picture(OUTPUT / f"{scene}.png", lines, images, (scenes.WIDTH, scenes.HEIGHT))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blender", nargs="+", default=[sys.executable], help="Pythons with bpy; the first has Pivot")
+    parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=list(scenes.SCENES))
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--reference-samples", type=int, default=256)
+    parser.add_argument("--quick", action="store_true", help="one seed, a quarter of the reference, no path guiding")
+    parser.add_argument("--only", nargs="+", help="measure these renderers; of others, the last pictures")
+    arguments = parser.parse_args()
+    guiding: tuple[bool, ...] = (False, True)
+    if arguments.quick:
+        arguments.seeds, arguments.reference_samples, guiding = 1, arguments.reference_samples // 4, (False,)
+    renderers = find_renderers(arguments.blender, guiding)
+    samples = dict.fromkeys(("pivot", "cycles"), arguments.reference_samples)
+    gallery = Gallery(OUTPUT, scene_key, samples)
+    rows = []
+    for scene in arguments.scenes:
+        found = measure(gallery, renderers, scene, arguments)
+        if found:
+            rows += found
+            write_sheet(gallery, renderers, scene, found)
+    if not rows:
+        return
+    table.write_csv(OUTPUT / "indirect.csv", rows)
+    print_ratios(gallery, renderers, rows)
+
+
+if __name__ == "__main__":
+    main()

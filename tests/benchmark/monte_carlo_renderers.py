@@ -1,0 +1,76 @@
+"""Cycles and Pivot inside Blender as a module, of a scene that a function builds there: no denoiser, no clamping."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+# isort: split
+import addon_utils
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Cycles:
+    """settings: scene.cycles' properties."""
+
+    def __init__(self, build: Callable[[], None], settings: dict[str, Any]) -> None:
+        build()
+        addon_utils.enable("cycles")
+        scene = bpy.context.scene
+        scene.render.engine = "CYCLES"
+        scene.view_layers[0].use_pass_combined = True
+        image = scene.render.image_settings
+        if bpy.app.version >= (5, 0):
+            image.media_type = "IMAGE"
+        image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
+        cycles: Any = scene.cycles
+        cycles.device = "CPU"
+        unclamped = {"sample_clamp_direct": 0.0, "sample_clamp_indirect": 0.0, "blur_glossy": 0.0}
+        plain = {"use_adaptive_sampling": False, "use_denoising": False}
+        for name, value in (unclamped | plain | settings).items():
+            setattr(cycles, name, value)
+
+    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
+        render = bpy.context.scene.render
+        bpy.context.scene.cycles.samples = samples
+        bpy.context.scene.cycles.seed = seed
+        path = Path(bpy.app.tempdir) / "picture.exr"
+        render.filepath = str(path)
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(str(path))
+        pixels = np.empty(render.resolution_y * render.resolution_x * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        bpy.data.images.remove(image)
+        return pixels.reshape(render.resolution_y, render.resolution_x, 4)[..., :3]
+
+
+class Pivot:
+    """settings: of pivot_core.RenderSettings."""
+
+    def __init__(self, build: Callable[[], None], settings: dict[str, Any]) -> None:
+        build()
+        addon_utils.enable("pivot")
+        self._core = importlib.import_module("pivot.core").load()
+        reporter = importlib.import_module("pivot.report").Reporter(print, set())
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        export_scene = importlib.import_module("pivot.export.scene").export_scene
+        self.scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
+        camera: Any = bpy.context.scene.camera
+        render = bpy.context.scene.render
+        size = render.resolution_x, render.resolution_y
+        self.view_plane = importlib.import_module("pivot.export.camera").view_plane(camera.data, 0.0, *size)
+        self.scene.set_camera(np.array(camera.matrix_world), self.view_plane, *size)
+        self._settings = settings
+
+    def render(self, samples: int, seed: int) -> NDArray[np.float32]:
+        settings = self._core.RenderSettings(samples=samples, seed=seed, **self._settings)
+        session = self._core.Session(self.scene, settings)
+        session.start()
+        while not session.wait(60.0):
+            pass
+        return session.read("Combined")[..., :3]
