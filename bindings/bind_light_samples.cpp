@@ -16,8 +16,8 @@ Vertex vertex_at(Scene& scene, const Material& material, const Triple& position,
                  std::size_t light_samples) {
     scene.commit();
     if (!(wo[2] > 0.0f)) throw py::value_error("wo must be above the surface: z > 0");
-    if (light_samples != 1 && light_samples != std::min(scene.lights().size(), max_light_samples)) {
-        throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_light_samples) +
+    if (light_samples != 1 && light_samples != std::min(scene.lamps().size(), max_lamp_samples)) {
+        throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
                               ", or as many as there are lights if they are fewer");
     }
     const Vec3f normal(0.0f, 0.0f, 1.0f);
@@ -28,7 +28,7 @@ Vertex vertex_at(Scene& scene, const Material& material, const Triple& position,
                              .is_front = true,
                              .material = &material,
                              .wo_local = normalize(to_vec3(wo))};
-    return {Sampler(), point, make_surface(material, point.wo_local), Dimensions(0), light_samples};
+    return {Sampler(), point, make_surface(material, point.wo_local), Dimensions(0), light_samples, 0};
 }
 
 py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
@@ -97,7 +97,7 @@ py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple&
     for (py::ssize_t i = 0; i < u.shape(0); ++i) {
         LightChoice choice{};
         const bool found =
-            choose_lights(scene.light_tree(), vertex.point, vertex.surface, u.at(i), std::span(&choice, 1)) > 0;
+            choose_lights(scene.lamp_tree(), vertex.point, vertex.surface, u.at(i), std::span(&choice, 1)) > 0;
         light.mutable_at(i) = found ? static_cast<std::int64_t>(choice.light) : -1;
         probability.mutable_at(i) = choice.probability;
     }
@@ -110,7 +110,7 @@ py::array_t<float> choice_probabilities(Scene& scene, const Material& material, 
     py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lights().size()));
     for (std::size_t light = 0; light < scene.lights().size(); ++light) {
         probabilities.mutable_data()[light] =
-            choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
+            choice_probability(scene.lamp_tree(), vertex.point, vertex.surface, light);
     }
     return probabilities;
 }
@@ -119,7 +119,7 @@ py::array_t<float> choice_probabilities(Scene& scene, const Material& material, 
 py::list light_tree(Scene& scene) {
     scene.commit();
     py::list nodes;
-    for (const LightTree::Node& node : scene.light_tree().nodes()) {
+    for (const LightTree::Node& node : scene.lamp_tree().nodes()) {
         const auto count = static_cast<py::ssize_t>(node.count);
         const LightProxies& proxies = node.proxies;
         const auto values = [&](const LightProxies::Values& v) { return py::array_t<float>(count, v.data()); };

@@ -7,14 +7,15 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-from . import distributions
-from . import sampling
-from . import bsdf
-from . import tables
-from . import shading
-from . import film
+from . import bsdf, distributions, film, sampling, shading, tables
 
 __all__: list[str] = [
+    "bsdf",
+    "distributions",
+    "film",
+    "sampling",
+    "shading",
+    "tables",
     "AreaLight",
     "Material",
     "RenderSettings",
@@ -24,12 +25,7 @@ __all__: list[str] = [
     "SpotLight",
     "SunLight",
     "arch",
-    "bsdf",
-    "distributions",
-    "film",
-    "sampling",
-    "shading",
-    "tables",
+    "version",
 ]
 
 class Material:
@@ -316,6 +312,7 @@ class RenderSettings:
         filter_width_px: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         transparent_film: bool = False,
         adaptive: bool = False,
+        clamp_indirect: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
 
 class Session:
@@ -362,3 +359,4 @@ class Session:
     def width(self) -> int: ...
 
 arch: str
+version: str

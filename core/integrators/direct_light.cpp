@@ -144,19 +144,29 @@ void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const 
     }
 }
 
-/// The lights that a vertex samples, into picks; how many.
-std::size_t pick_lights(const Scene& scene, const Vertex& vertex, std::span<LightPick> picks) {
-    if (vertex.light_samples == scene.lights().size()) {
-        for (std::size_t i = 0; i < vertex.light_samples; ++i) picks[i] = {i, 1.0f, i};
-        return vertex.light_samples;
-    }
+/// Some of the lights from `first` on, which a tree holds: all, or as many as there are picks, u choosing among them.
+/// place: the first sample's. Of picks that find nothing none are expected.
+void pick_some(const LightTree& tree, std::size_t first, std::size_t count, const Vertex& vertex, float u,
+               std::size_t place, std::span<LightPick> picks) {
+    const auto samples = static_cast<float>(picks.size());
     std::array<LightChoice, max_light_samples> choices;
-    const std::size_t count = choose_lights(scene.light_tree(), vertex.point, vertex.surface,
-                                            vertex.sampler.number(vertex.dimensions.light_choice()),
-                                            std::span(choices).first(vertex.light_samples));
-    const auto samples = static_cast<float>(vertex.light_samples);
-    for (std::size_t i = 0; i < count; ++i) picks[i] = {choices[i].light, samples * choices[i].probability, i};
-    return count;
+    const bool all = picks.size() == count;
+    const std::size_t found =
+        all ? count : choose_lights(tree, vertex.point, vertex.surface, u, std::span(choices).first(picks.size()));
+    for (std::size_t i = 0; i < picks.size(); ++i) {
+        picks[i] = {0, 0.0f, place + i};
+        if (all) picks[i] = {first + i, 1.0f, place + i};
+        if (!all && i < found) picks[i] = {first + choices[i].light, samples * choices[i].probability, place + i};
+    }
+}
+
+/// The lights that a vertex samples, into picks: lamps, then triangles.
+void pick_lights(const Scene& scene, const Vertex& vertex, std::span<LightPick> picks) {
+    const std::size_t lamps = scene.lamps().size(), triangles = scene.lights().size() - lamps;
+    const Vec2f u = vertex.sampler.point(vertex.dimensions.light_choice());
+    pick_some(scene.lamp_tree(), 0, lamps, vertex, u.x, 0, picks.first(vertex.lamp_samples));
+    pick_some(scene.triangle_tree(), lamps, triangles, vertex, u.y, max_lamp_samples,
+              picks.subspan(vertex.lamp_samples, vertex.triangle_samples));
 }
 
 /// Calls visit(first vertex, LightPacket) with each packet's light samples.
@@ -166,11 +176,12 @@ void sample_packets(const Scene& scene, LightSampling strategy, std::span<const 
     for (std::size_t begin = 0; begin < vertices.size(); begin += RayPacket::width) {
         const auto packet = vertices.subspan(begin, std::min(RayPacket::width, vertices.size() - begin));
         std::array<std::array<LightPick, RayPacket::width>, max_light_samples> picks;  // [sample][vertex]
-        const std::size_t rounds = packet[0].light_samples;  // of all, as they are vertices of one bounce
+        // of all, as they are vertices of one bounce
+        const std::size_t rounds = packet[0].lamp_samples + packet[0].triangle_samples;
         for (std::size_t i = 0; i < packet.size(); ++i) {
             std::array<LightPick, max_light_samples> own;
-            const std::size_t count = pick_lights(scene, packet[i], own);
-            for (std::size_t k = 0; k < rounds; ++k) picks[k][i] = k < count ? own[k] : LightPick{0, 0.0f, k};
+            pick_lights(scene, packet[i], own);
+            for (std::size_t k = 0; k < rounds; ++k) picks[k][i] = own[k];
         }
         const auto shared = shares.subspan(begin, packet.size());
         std::array<VertexLanes, RayPacket::width / batch_size> lanes;
@@ -200,9 +211,13 @@ void sample_packets(const Scene& scene, LightSampling strategy, std::span<const 
 }  // namespace
 
 float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t light) {
-    if (vertex.light_samples == scene.lights().size()) return 1.0f;
-    return static_cast<float>(vertex.light_samples) *
-           choice_probability(scene.light_tree(), vertex.point, vertex.surface, light);
+    const std::size_t lamps = scene.lamps().size();
+    const bool is_lamp = light < lamps;
+    const std::size_t samples = is_lamp ? vertex.lamp_samples : vertex.triangle_samples;
+    if (samples == (is_lamp ? lamps : scene.lights().size() - lamps)) return 1.0f;
+    const LightTree& tree = is_lamp ? scene.lamp_tree() : scene.triangle_tree();
+    return static_cast<float>(samples) *
+           choice_probability(tree, vertex.point, vertex.surface, is_lamp ? light : light - lamps);
 }
 
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,

@@ -6,8 +6,11 @@
 
 namespace pivot {
 
-/// With more lights than this, a first vertex samples that many of them, chosen by their importance; with fewer, all.
-inline constexpr std::size_t max_light_samples = 8;
+/// With more lamps than this, a first vertex samples that many of them, chosen by their importance; with fewer, all.
+inline constexpr std::size_t max_lamp_samples = 8;
+/// And so many of the triangles of emissive meshes, apart: however many shine, every lamp keeps its samples.
+inline constexpr std::size_t max_triangle_samples = 4;
+inline constexpr std::size_t max_light_samples = max_lamp_samples + max_triangle_samples;
 
 /// Sampler dimensions of one bounce: the BSDF's two, the choice of lights, then one per light sample.
 struct Dimensions {
@@ -29,7 +32,8 @@ struct Vertex {
     SurfacePoint point;
     Surface surface;
     Dimensions dimensions;
-    std::size_t light_samples;  ///< as many as there are lights: one of each; fewer: as chosen
+    std::size_t lamp_samples;      ///< as many as there are lamps: one of each; fewer: as chosen
+    std::size_t triangle_samples;  ///< likewise
 };
 
 }  // namespace pivot

@@ -46,7 +46,7 @@ void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
 }
 
 /// Suns, or lights that are none.
-void set_group(LightProxies& proxies, std::size_t child, const std::vector<Light>& lights,
+void set_group(LightProxies& proxies, std::size_t child, std::span<const Light> lights,
                std::span<const std::uint32_t> indices) {
     Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
     float intensity = 0.0f, irradiance = 0.0f;
@@ -84,13 +84,13 @@ void LightProxies::set_flat(std::size_t child, const AreaLight& light) {
     two_sided[child] = light.is_two_sided ? 1.0f : 0.0f;
 }
 
-LightTree::LightTree(const std::vector<Light>& lights) : leaves_(lights.size()) {
+LightTree::LightTree(std::span<const Light> lights) : leaves_(lights.size()) {
     std::vector<std::uint32_t> indices(lights.size());
     std::iota(indices.begin(), indices.end(), 0u);
     if (!lights.empty()) build(lights, indices);
 }
 
-std::int32_t LightTree::build(const std::vector<Light>& lights, std::span<std::uint32_t> indices) {
+std::int32_t LightTree::build(std::span<const Light> lights, std::span<std::uint32_t> indices) {
     const auto index = static_cast<std::int32_t>(nodes_.size());
     nodes_.emplace_back();
     // Suns apart from the rest; then halved along the longest side until there are eight parts, or single lights.

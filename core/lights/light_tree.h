@@ -44,7 +44,7 @@ class LightTree {
         std::size_t place;
     };
 
-    explicit LightTree(const std::vector<Light>& lights = {});
+    explicit LightTree(std::span<const Light> lights = {});
 
     /// The root comes first. Empty without lights.
     const std::vector<Node>& nodes() const { return nodes_; }
@@ -52,7 +52,7 @@ class LightTree {
     const Leaf& leaf(std::size_t light) const { return leaves_[light]; }
 
    private:
-    std::int32_t build(const std::vector<Light>& lights, std::span<std::uint32_t> indices);
+    std::int32_t build(std::span<const Light> lights, std::span<std::uint32_t> indices);
 
     std::vector<Node> nodes_;
     std::vector<Leaf> leaves_;

@@ -207,7 +207,8 @@ void Scene::commit() {
         has_unsampled_light_ = true;
         add_triangle_lights(*instances_[i], triangle_lights_[i]);
     }
-    light_tree_ = LightTree(active_lights_);
+    lamp_tree_ = LightTree(lamps());
+    triangle_tree_ = LightTree(lights().subspan(lamp_count_));
     is_committed_ = true;
 }
 

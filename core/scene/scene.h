@@ -62,7 +62,9 @@ class Scene {
     std::span<const Light> lamps() const { return lights().first(lamp_count_); }
     /// The light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
-    const LightTree& light_tree() const { return light_tree_; }
+    /// Of the lamps, and of the triangles.
+    const LightTree& lamp_tree() const { return lamp_tree_; }
+    const LightTree& triangle_tree() const { return triangle_tree_; }
     /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
     bool has_unsampled_light() const { return has_unsampled_light_; }
     const std::string& instance_name(std::uint32_t id) const { return instances_[id]->name; }
@@ -98,7 +100,7 @@ class Scene {
     std::vector<Light> active_lights_;
     std::size_t lamp_count_ = 0;
     std::vector<std::vector<std::uint32_t>> triangle_lights_;  ///< by instance and triangle; empty: none shines
-    LightTree light_tree_;
+    LightTree lamp_tree_, triangle_tree_;
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     Rgb world_{0.0f};
     Camera camera_;
