@@ -4,12 +4,17 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from tests.addon.blender_host import hosts
+
 ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "tests/scenes/default"
 
 DESCRIBE = """
 import sys, bpy
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+print("The scene:")
 for thing in sorted(bpy.context.scene.objects, key=lambda o: o.name):
     mesh = thing.type == "MESH" and (len(thing.data.vertices), len(thing.data.polygons), len(thing.data.materials))
     light = thing.type == "LIGHT" and (thing.data.energy, tuple(thing.data.color))
@@ -23,9 +28,13 @@ for material in bpy.data.materials:
 
 def describe(path: Path) -> list[str]:
     ran = subprocess.run([sys.executable, "-c", DESCRIBE, path], capture_output=True, text=True, check=True)
-    return [line for line in ran.stdout.splitlines() if not line.startswith("Read blend")]
+    return ran.stdout.partition("The scene:\n")[2].splitlines()  # Blender's own lines before it carry times
 
 
+@pytest.mark.skipif(
+    all(host.version != (3, 4) for host in hosts()),
+    reason="default.blend was saved by Blender 3.4: a newer one converts its disk lights when it loads it",
+)
 def test_the_script_rebuilds_the_scene(tmp_path: Path) -> None:
     script = SCENE / "build_default.py"
     command = [
