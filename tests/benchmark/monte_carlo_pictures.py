@@ -110,8 +110,10 @@ class Gallery:
             for count in (low, samples)
         )
         mean, variance = self.reference(renderer, scene)
-        by_pixel = [relative_errors(image, mean, variance) for image, _ in many]
-        errors = [float(e.mean()) for e in by_pixel]
+        scale = 1 / (mean**2 + 0.01)
+        noise = float((variance * scale).mean())
+        by_pixel = [((image - mean) ** 2 * scale).mean(-1) for image, _ in many]
+        errors = [float(e.mean()) - noise for e in by_pixel]
         cpu_s = [np.median([cpu for _, cpu in images]) if images else 0.0 for images in (few, many)]
         cost_s = float(cpu_s[1] - cpu_s[0]) / (1 - low / samples)
         error = float(np.mean(errors))
@@ -121,7 +123,8 @@ class Gallery:
             "samples": samples,
             "relMSE": error,
             "relMSE of seeds": " ".join(f"{e:.3g}" for e in errors),
-            "relMSE of the reference": float((variance / (mean**2 + 0.01)).mean()),
+            "relMSE of the reference": noise,
+            # With the reference's noise: how much of it lies in the pixels kept is not known.
             "relMSE without the worst": float(np.mean([without_worst(e) for e in by_pixel])),
             "CPU s": cost_s,
             "Msamples per CPU s": samples * mean.shape[0] * mean.shape[1] / cost_s / 1e6,
@@ -147,11 +150,6 @@ class Gallery:
         subprocess.run(
             worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment
         )
-
-
-def relative_errors(image: Floats, mean: Floats, variance: Floats) -> Floats:
-    """Of each pixel, (height, width)."""
-    return (((image - mean) ** 2 - variance) / (mean**2 + 0.01)).mean(-1)
 
 
 def without_worst(errors: Floats) -> float:
