@@ -38,7 +38,7 @@ def export_light(context: Context, light_object: bpy.types.Object, object_to_wor
         report_left_out(described, owner, context.reporter)
     _warn_of_uneven_scale(owner, data, object_to_world, context.reporter)
     with naming(owner, "give its power, colour and size finite values"):
-        light = _LIGHTS[data.type](context, data, _strength(context, light_object), object_to_world)
+        light = _LIGHTS[data.type](context, data, _strength(context, data, owner), object_to_world)
         if light is not None:
             context.scene.add_light(light_object.name, light)
 
@@ -48,15 +48,14 @@ def _is_portal(data: Any) -> bool:
     return data.type == "AREA" and getattr(getattr(data, "cycles", None), "is_portal", False)
 
 
-def _strength(context: Context, light_object: bpy.types.Object) -> NDArray[np.float64]:
+def _strength(context: Context, data: Any, owner: str) -> NDArray[np.float64]:
     """(3,): power in W (sun: irradiance in W/m^2) times colour."""
-    data: Any = light_object.data
     strength = np.array(data.color, float) * data.energy * 2.0 ** getattr(data, "exposure", 0.0)
     if getattr(data, "use_temperature", False):
         strength *= np.array(data.temperature_color)
     tree = active_tree(data)
     if tree is not None:
-        strength *= light_emission(tree, Owner(f"light '{light_object.name}'", context.reporter))
+        strength *= light_emission(tree, Owner(owner, context.reporter))
     return strength
 
 

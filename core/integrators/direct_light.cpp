@@ -148,24 +148,26 @@ void sample_batch(const Scene& scene, const VertexLanes& lanes, std::span<const 
 /// place: the first sample's. Of picks that find nothing none are expected.
 void pick_some(const LightTree& tree, std::size_t first, std::size_t count, const Vertex& vertex, float u,
                std::size_t place, std::span<LightPick> picks) {
-    const auto samples = static_cast<float>(picks.size());
+    if (picks.size() == count) {
+        for (std::size_t i = 0; i < count; ++i) picks[i] = {first + i, 1.0f, place + i};
+        return;
+    }
     std::array<LightChoice, max_light_samples> choices;
-    const bool all = picks.size() == count;
     const std::size_t found =
-        all ? count : choose_lights(tree, vertex.point, vertex.surface, u, std::span(choices).first(picks.size()));
+        choose_lights(tree, vertex.point, vertex.surface, u, std::span(choices).first(picks.size()));
+    const auto samples = static_cast<float>(picks.size());
     for (std::size_t i = 0; i < picks.size(); ++i) {
-        picks[i] = {0, 0.0f, place + i};
-        if (all) picks[i] = {first + i, 1.0f, place + i};
-        if (!all && i < found) picks[i] = {first + choices[i].light, samples * choices[i].probability, place + i};
+        const LightChoice choice = i < found ? choices[i] : LightChoice{0, 0.0f};
+        picks[i] = {first + choice.light, samples * choice.probability, place + i};
     }
 }
 
 /// The lights that a vertex samples, into picks: lamps, then triangles.
 void pick_lights(const Scene& scene, const Vertex& vertex, std::span<LightPick> picks) {
-    const std::size_t lamps = scene.lamps().size(), triangles = scene.lights().size() - lamps;
+    const std::size_t lamps = scene.lamps().size();
     const Vec2f u = vertex.sampler.point(vertex.dimensions.light_choice());
     pick_some(scene.lamp_tree(), 0, lamps, vertex, u.x, 0, picks.first(vertex.lamp_samples));
-    pick_some(scene.triangle_tree(), lamps, triangles, vertex, u.y, max_lamp_samples,
+    pick_some(scene.triangle_tree(), lamps, scene.triangle_lights().size(), vertex, u.y, max_lamp_samples,
               picks.subspan(vertex.lamp_samples, vertex.triangle_samples));
 }
 
@@ -212,12 +214,12 @@ void sample_packets(const Scene& scene, LightSampling strategy, std::span<const 
 
 float expected_samples(const Scene& scene, const Vertex& vertex, std::size_t light) {
     const std::size_t lamps = scene.lamps().size();
-    const bool is_lamp = light < lamps;
-    const std::size_t samples = is_lamp ? vertex.lamp_samples : vertex.triangle_samples;
-    if (samples == (is_lamp ? lamps : scene.lights().size() - lamps)) return 1.0f;
-    const LightTree& tree = is_lamp ? scene.lamp_tree() : scene.triangle_tree();
-    return static_cast<float>(samples) *
-           choice_probability(tree, vertex.point, vertex.surface, is_lamp ? light : light - lamps);
+    const auto chosen_of = [&](const LightTree& tree, std::size_t count, std::size_t samples, std::size_t index) {
+        if (samples == count) return 1.0f;
+        return static_cast<float>(samples) * choice_probability(tree, vertex.point, vertex.surface, index);
+    };
+    if (light < lamps) return chosen_of(scene.lamp_tree(), lamps, vertex.lamp_samples, light);
+    return chosen_of(scene.triangle_tree(), scene.triangle_lights().size(), vertex.triangle_samples, light - lamps);
 }
 
 void add_direct_light(const Scene& scene, LightSampling strategy, std::span<const Vertex> vertices,

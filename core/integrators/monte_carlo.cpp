@@ -77,13 +77,12 @@ struct Paths {
 };
 
 Vertex make_vertex(const Scene& scene, const Sampler& sampler, const SurfacePoint& point, std::uint32_t bounce) {
-    const std::size_t lamps = scene.lamps().size();
     return {.sampler = sampler,
             .point = point,
             .surface = make_surface(*point.material, point.wo_local),
             .dimensions = Dimensions(bounce),
-            .lamp_samples = std::min(lamps, bounce == 0 ? max_lamp_samples : 1),
-            .triangle_samples = std::min(scene.lights().size() - lamps, bounce == 0 ? max_triangle_samples : 1)};
+            .lamp_samples = std::min(scene.lamps().size(), bounce == 0 ? max_lamp_samples : 1),
+            .triangle_samples = std::min(scene.triangle_lights().size(), bounce == 0 ? max_triangle_samples : 1)};
 }
 
 /// The camera's rays; those that meet nothing end here.

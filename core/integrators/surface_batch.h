@@ -26,9 +26,11 @@ struct SurfaceBatch {
     bool has_diffuse = false, has_glossy = false;  // in some lane
 };
 
-/// The error that closed forms may make, relative; method EXACT takes the best there is.
+/// The error that closed forms may make, relative. A method that was asked for by name takes the best there is, also
+/// where the exact core stands in for it.
 inline Batch budget_of(const RenderSettings& settings) {
-    return Batch(settings.analytic_method == AnalyticMethod::exact ? 1e-4f : 0.01f * settings.error_budget_percent);
+    const bool automatic = settings.analytic_method == AnalyticMethod::automatic;
+    return Batch(automatic ? 0.01f * settings.error_budget_percent : 1e-4f);
 }
 
 /// How much larger Fresnel's curve is at grazing than at normal incidence, relative.

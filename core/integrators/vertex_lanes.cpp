@@ -148,7 +148,8 @@ LaneSamples sample_area_lights(const VertexLanes& lanes, const LaneValues<const 
         .ellipse = is_shape(AreaShape::ellipse),
         .triangle = is_shape(AreaShape::triangle),
     };
-    const Batch zero(0.0f), two_sided = lights.number([](const AreaLight*l) { return l->is_two_sided ? 1.0f : 0.0f; });
+    const Batch zero(0.0f),
+        two_sided = lights.number([](const AreaLight*l) { return l->is_two_sided() ? 1.0f : 0.0f; });
     const Batch facing = dot(view.center, view.normal);
     view.normal = select(two_sided > zero && facing > zero, -view.normal, view.normal);
     const BatchMask reached = facing < zero || (two_sided > zero && facing > zero);

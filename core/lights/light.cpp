@@ -72,7 +72,7 @@ AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f&
     const float quarter_area = length(normal);
     require(quarter_area > 0.0f, "half_u and half_v must span an area");
     const AreaShape shape = ellipse ? AreaShape::ellipse : AreaShape::parallelogram;
-    return {center, half_u, half_v, normal / quarter_area, quarter_area * relative_area(shape), shape, false, radiance};
+    return {center, half_u, half_v, normal / quarter_area, quarter_area * relative_area(shape), shape, radiance};
 }
 
 std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners, const Rgb& radiance) {
@@ -82,14 +82,8 @@ std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners
     const float half_area = length(normal);
     if (!(half_area > 0.0f)) return std::nullopt;
     constexpr AreaShape shape = AreaShape::triangle;
-    return AreaLight{0.5f * (a + middle),
-                     half_u,
-                     half_v,
-                     normal / half_area,
-                     half_area * relative_area(shape),
-                     shape,
-                     true,
-                     radiance};
+    return AreaLight{
+        0.5f * (a + middle), half_u, half_v, normal / half_area, half_area * relative_area(shape), shape, radiance};
 }
 
 bool is_on_light(const AreaLight& light, const Vec2f& at) {
@@ -132,7 +126,7 @@ std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
 }
 
 std::optional<LightPoint> light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
-    const float cosine = dot(wi, light.normal), cos_light = light.is_two_sided ? std::abs(cosine) : -cosine;
+    const float cosine = dot(wi, light.normal), cos_light = light.is_two_sided() ? std::abs(cosine) : -cosine;
     if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
     return LightPoint{wi, distance_m, light.radiance, sqr(distance_m) / (cos_light * light.area_m2)};
 }

@@ -46,8 +46,9 @@ struct AreaLight {
     Vec3f normal;  ///< the side that shines, unit
     float area_m2;
     AreaShape shape;
-    bool is_two_sided;
     Rgb radiance;
+
+    bool is_two_sided() const { return shape == AreaShape::triangle; }
 };
 
 /// All emit linear RGB radiance; a negative one is subtracted.
@@ -120,7 +121,7 @@ constexpr float relative_area(AreaShape shape) {
 /// |half_u x half_v|.
 inline float parallelogram_m2(const AreaLight& light) { return light.area_m2 / relative_area(light.shape); }
 
-/// Lamps end their shadow rays a little early: nor should a mesh that touches one become an occluder by rounding.
+/// Lamps end their shadow rays a little early, lest a mesh that touches one become an occluder by rounding.
 inline constexpr float shadow_reach = 1.0f - 1e-5f;
 
 /// Bound of the rounding error of where rays meet a mesh's triangle, along its normal. 0 of lamps, which rays do not
@@ -133,7 +134,7 @@ inline float surface_error_m(const AreaLight& light) {
 
 /// The side that a point sees of the light, unit.
 inline Vec3f normal_towards(const AreaLight& light, const Vec3f& point) {
-    return light.is_two_sided && dot(point - light.center, light.normal) < 0.0f ? -light.normal : light.normal;
+    return light.is_two_sided() && dot(point - light.center, light.normal) < 0.0f ? -light.normal : light.normal;
 }
 
 bool is_on_light(const AreaLight& light, const Vec2f& coordinates);

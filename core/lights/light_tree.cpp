@@ -81,7 +81,7 @@ void LightProxies::set_flat(std::size_t child, const AreaLight& light) {
     set_sphere(child, light.center, sqrt(light.area_m2 / pi<float>), mean_component(abs(light.radiance)));
     normal_x[child] = light.normal.x, normal_y[child] = light.normal.y, normal_z[child] = light.normal.z;
     least_lit[child] = 0.0f;
-    two_sided[child] = light.is_two_sided ? 1.0f : 0.0f;
+    two_sided[child] = light.is_two_sided() ? 1.0f : 0.0f;
 }
 
 LightTree::LightTree(std::span<const Light> lights) : leaves_(lights.size()) {

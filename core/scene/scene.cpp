@@ -208,7 +208,7 @@ void Scene::commit() {
         add_triangle_lights(*instances_[i], triangle_lights_[i]);
     }
     lamp_tree_ = LightTree(lamps());
-    triangle_tree_ = LightTree(lights().subspan(lamp_count_));
+    triangle_tree_ = LightTree(triangle_lights());
     is_committed_ = true;
 }
 

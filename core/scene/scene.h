@@ -60,6 +60,7 @@ class Scene {
     std::span<const Light> lights() const { return active_lights_; }
     /// Those that were added.
     std::span<const Light> lamps() const { return lights().first(lamp_count_); }
+    std::span<const Light> triangle_lights() const { return lights().subspan(lamp_count_); }
     /// The light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
     /// Of the lamps, and of the triangles.
