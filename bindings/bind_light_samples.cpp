@@ -5,46 +5,51 @@
 #include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/integrators/direct_light.h"
+#include "core/integrators/light_choice.h"
+#include "core/integrators/light_sampler.h"
 
 namespace pivot::bindings {
 namespace {
 
-constexpr std::size_t chunk_size = 1024;
-
 /// The scene made ready, and a vertex in it whose shading frame is the world's.
-Vertex vertex_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
-                 std::size_t light_samples) {
+Vertex vertex_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo) {
     scene.commit();
     if (!(wo[2] > 0.0f)) throw py::value_error("wo must be above the surface: z > 0");
-    if (light_samples != 1 && light_samples != std::min(scene.lamps().size(), max_lamp_samples)) {
-        throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
-                              ", or as many as there are lights if they are fewer");
-    }
     const Vec3f normal(0.0f, 0.0f, 1.0f);
     const SurfacePoint point{.position = to_vec3(position),
                              .normal_geometric = normal,
                              .frame = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, normal},
                              .error_m = 0.0f,
-                             .is_front = true,
-                             .material = &material,
+                             .front = 1.0f,
                              .wo_local = normalize(to_vec3(wo))};
-    return {Sampler(), point, make_surface(material, point.wo_local), Dimensions(0), light_samples, 0};
+    return {{}, point, make_surface(material, point.wo_local)};
+}
+
+/// Of the lamps alone; light_samples: how many a vertex takes.
+BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
+    if (light_samples != 1 && light_samples != std::min(scene.lamps().size(), max_lamp_samples)) {
+        throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
+                              ", or as many as there are lights if they are fewer");
+    }
+    return {Dimensions(0), light_samples, 0};
 }
 
 py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                         const std::string& light_sampling, std::size_t light_samples, std::size_t count,
                         std::uint32_t seed) {
-    const Vertex vertex = vertex_at(scene, material, position, wo, light_samples);
+    VertexOf<Batch> vertices = broadcast<VertexOf>(vertex_at(scene, material, position, wo));
+    const BouncePlan plan = plan_with(scene, light_samples);
     const LightSampling strategy = light_sampling_from(light_sampling);
     std::vector<Vec3f> wi;
     std::vector<Rgb> radiance;
-    for (std::size_t first = 0; first < count; first += chunk_size) {
-        std::vector<Vertex> vertices(std::min(chunk_size, count - first), vertex);
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            vertices[i].sampler = Sampler(hash(static_cast<std::uint32_t>(first + i), seed), 0);
-        }
-        std::vector<std::uint8_t> shares(vertices.size(), 0);
-        for (const LightSample& sample : sample_direct_light(scene, strategy, vertices, shares)) {
+    for (std::size_t first = 0; first < count; first += batch_size) {
+        std::array<Sampler, batch_size> samplers;
+        for (std::size_t i = 0; i < batch_size; ++i)
+            samplers[i] = {hash(static_cast<std::uint32_t>(first + i), seed), 0};
+        vertices.sampler = sampler_lanes(samplers);
+        LaneFlags shares{};
+        const VertexBatch batch(vertices, std::min(batch_size, count - first));
+        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shares)) {
             wi.push_back(sample.wi);
             radiance.push_back(sample.radiance);
         }
@@ -62,7 +67,8 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
 py::tuple light_densities(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                           const std::string& light_sampling, std::size_t light_samples, const FloatArray& wi) {
     require_shape(wi, "wi", {-1, 3});
-    const Vertex vertex = vertex_at(scene, material, position, wo, light_samples);
+    const Vertex vertex = vertex_at(scene, material, position, wo);
+    const BouncePlan plan = plan_with(scene, light_samples);
     const LightSampling strategy = light_sampling_from(light_sampling);
     const py::ssize_t count = wi.shape(0), lights = static_cast<py::ssize_t>(scene.lights().size());
     py::array_t<float> pdf_omega({count, lights}), pdf_omega_bsdf(count), reflected({count, lights, py::ssize_t(3)});
@@ -72,7 +78,7 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
     for (py::ssize_t light = 0; light < lights; ++light) {
         const Light& source = scene.lights()[static_cast<std::size_t>(light)];
         const LightSampler sampler(source, vertex.point, vertex.surface, strategy);
-        const float expected = expected_samples(scene, vertex, static_cast<std::size_t>(light));
+        const float expected = expected_samples(scene, plan, vertex, static_cast<std::size_t>(light));
         shares.mutable_at(light) = sampler.shares_with_bsdf();
         for (py::ssize_t i = 0; i < count; ++i) {
             const Vec3f direction(wi.at(i, 0), wi.at(i, 1), wi.at(i, 2));
@@ -91,26 +97,31 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
 py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                            const FloatArray& u) {
     require_shape(u, "u", {-1});
-    const Vertex vertex = vertex_at(scene, material, position, wo, 1);
+    const VertexBatch vertices(broadcast<VertexOf>(vertex_at(scene, material, position, wo)), batch_size);
+    if (scene.lamps().empty()) throw py::value_error("the scene has no lamp to choose");
     py::array_t<std::int64_t> light(u.shape(0));
     py::array_t<float> probability(u.shape(0));
-    for (py::ssize_t i = 0; i < u.shape(0); ++i) {
-        LightChoice choice{};
-        const bool found =
-            choose_lights(scene.lamp_tree(), vertex.point, vertex.surface, u.at(i), std::span(&choice, 1)) > 0;
-        light.mutable_at(i) = found ? static_cast<std::int64_t>(choice.light) : -1;
-        probability.mutable_at(i) = choice.probability;
+    for (py::ssize_t first = 0; first < u.shape(0); first += batch_size) {
+        const auto count = std::min(static_cast<py::ssize_t>(batch_size), u.shape(0) - first);
+        Lanes lanes{};
+        std::copy_n(u.data(first), count, lanes.begin());
+        LightChoices choices;
+        choose_lights(scene.lamp_tree(), vertices, load(lanes), std::span(&choices, 1));
+        for (py::ssize_t i = 0; i < count; ++i) {
+            const float p = probability.mutable_at(first + i) = choices.probability[static_cast<std::size_t>(i)];
+            light.mutable_at(first + i) =
+                p > 0.0f ? static_cast<std::int64_t>(choices.light[static_cast<std::size_t>(i)]) : -1;
+        }
     }
     return py::make_tuple(light, probability);
 }
 
 py::array_t<float> choice_probabilities(Scene& scene, const Material& material, const Triple& position,
                                         const Triple& wo) {
-    const Vertex vertex = vertex_at(scene, material, position, wo, 1);
+    const Vertex vertex = vertex_at(scene, material, position, wo);
     py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lights().size()));
     for (std::size_t light = 0; light < scene.lights().size(); ++light) {
-        probabilities.mutable_data()[light] =
-            choice_probability(scene.lamp_tree(), vertex.point, vertex.surface, light);
+        probabilities.mutable_data()[light] = choice_probability(scene.lamp_tree(), vertex, light);
     }
     return probabilities;
 }

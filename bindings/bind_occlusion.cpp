@@ -9,7 +9,7 @@
 namespace pivot::bindings {
 namespace {
 
-/// Calls visit(row, bent cone, point) for what each ray hits.
+/// Calls visit(row, bent cone, point, material) for what each ray hits.
 template <class Visit>
 void for_each_hit(Scene& scene, const FloatArray& origins, const FloatArray& directions, const Visit& visit) {
     require_shape(origins, "origins", {-1, 3});
@@ -22,28 +22,30 @@ void for_each_hit(Scene& scene, const FloatArray& origins, const FloatArray& dir
         const auto hit = scene.intersect(ray, visible_to_camera);
         if (!hit) throw py::value_error("ray " + std::to_string(i) + " meets nothing");
         const SurfacePoint point = scene.surface_point(ray, *hit);
-        visit(i, scene.bent_cone(*hit, point), point);
+        visit(i, scene.bent_cone(*hit, point), point, scene.materials()[scene.material_of(*hit)]);
     }
 }
 
 py::tuple bent_cones(Scene& scene, const FloatArray& origins, const FloatArray& directions) {
     py::array_t<float> axis({origins.shape(0), py::ssize_t(3)}), versine(origins.shape(0));
-    for_each_hit(scene, origins, directions, [&](py::ssize_t i, const Cap<float>& cone, const SurfacePoint&) {
-        for (int k = 0; k < 3; ++k) axis.mutable_at(i, k) = cone.axis[k];
-        versine.mutable_at(i) = cone.versine;
-    });
+    for_each_hit(scene, origins, directions,
+                 [&](py::ssize_t i, const Cap<float>& cone, const SurfacePoint&, const Material&) {
+                     for (int k = 0; k < 3; ++k) axis.mutable_at(i, k) = cone.axis[k];
+                     versine.mutable_at(i) = cone.versine;
+                 });
     return py::make_tuple(axis, versine);
 }
 
 py::tuple seen_shares(Scene& scene, const FloatArray& origins, const FloatArray& directions, const Light* light) {
     py::array_t<float> diffuse(origins.shape(0)), glossy(origins.shape(0));
-    for_each_hit(scene, origins, directions, [&](py::ssize_t i, const Cap<float>& cone, const SurfacePoint& point) {
-        const Surface surface = make_surface(*point.material, point.wo_local);
-        const SeenShare seen =
-            light ? seen_share(*light, cone, point, surface) : seen_share_of_world(cone, point, surface);
-        diffuse.mutable_at(i) = seen.diffuse;
-        glossy.mutable_at(i) = seen.glossy;
-    });
+    for_each_hit(scene, origins, directions,
+                 [&](py::ssize_t i, const Cap<float>& cone, const SurfacePoint& point, const Material& material) {
+                     const Surface surface = make_surface(material, point.wo_local);
+                     const SeenShare seen =
+                         light ? seen_share(*light, cone, point, surface) : seen_share_of_world(cone, point, surface);
+                     diffuse.mutable_at(i) = seen.diffuse;
+                     glossy.mutable_at(i) = seen.glossy;
+                 });
     return py::make_tuple(diffuse, glossy);
 }
 

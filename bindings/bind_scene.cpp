@@ -114,7 +114,7 @@ void register_material(py::module_& module) {
                                  .dielectric_weight = dielectric_weight,
                                  .dielectric_ior = dielectric_ior,
                                  .dielectric_tint = to_vec3(dielectric_tint),
-                                 .multiscatter = multiscatter,
+                                 .multiscatter = multiscatter ? 1.0f : 0.0f,
                                  .emission = to_vec3(emission)};
              }),
              py::kw_only(), py::arg("diffuse") = Triple{}, py::arg("alpha") = 0.5f, py::arg("conductor_f0") = Triple{},

@@ -6,23 +6,25 @@
 
 namespace pivot {
 
-struct Material {
-    Rgb diffuse{0.0f};   ///< Lambert reflectance, before the dielectric above it takes its share
-    float alpha = 0.5f;  ///< GGX alpha, roughness squared, in [0, 1]; the smoothest is min_alpha
+template <class T>
+struct MaterialOf {
+    Vec3<T> diffuse{T(0)};  ///< Lambert reflectance, before the dielectric above it takes its share
+    T alpha = T(0.5f);      ///< GGX alpha, roughness squared, in [0, 1]; the smoothest is min_alpha
     // The GGX lobe's Fresnel is the sum of two curves, each with its weight multiplied in.
-    Rgb conductor_f0{0.0f};         ///< Schlick at normal incidence
-    Rgb conductor_f90{0.0f};        ///< Schlick at grazing incidence
-    float conductor_weight = 1.0f;  ///< the weight in both: over it they are what the conductor itself reflects
-    float dielectric_weight = 0.0f;
-    float dielectric_ior = 1.5f;  ///< at least 1
-    Rgb dielectric_tint{1.0f};    ///< scales the reflectance at normal incidence
-    bool multiscatter = false;    ///< give back what single scattering loses between microfacets
-    Rgb emission{0.0f};           ///< radiance, both sides; negative: subtracted
+    Vec3<T> conductor_f0{T(0)};   ///< Schlick at normal incidence
+    Vec3<T> conductor_f90{T(0)};  ///< Schlick at grazing incidence
+    T conductor_weight = T(1);    ///< the weight in both: over it they are what the conductor itself reflects
+    T dielectric_weight = T(0);
+    T dielectric_ior = T(1.5f);     ///< at least 1
+    Vec3<T> dielectric_tint{T(1)};  ///< scales the reflectance at normal incidence
+    T multiscatter = T(0);          ///< 1: give back what single scattering loses between microfacets; 0: do not
+    Vec3<T> emission{T(0)};         ///< radiance, both sides; negative: subtracted
 
-    bool has_glossy() const {
-        return dielectric_weight > 0.0f || max_component(max(conductor_f0, conductor_f90)) > 0.0f;
-    }
-    bool is_emissive() const { return max_component(abs(emission)) > 0.0f; }
+    Mask<T> has_conductor() const { return max(max_component(conductor_f0), max_component(conductor_f90)) > T(0); }
+    Mask<T> has_glossy() const { return dielectric_weight > T(0) || has_conductor(); }
+    Mask<T> is_emissive() const { return max_component(abs(emission)) > T(0); }
 };
+
+using Material = MaterialOf<float>;
 
 }  // namespace pivot

@@ -186,11 +186,11 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
             continue;
         }
         const SurfacePoint point = scene.surface_point(camera_rays[i], *hits[i]);
-        const Surface surface = make_surface(*point.material, point.wo_local);
+        const Material& material = scene.materials()[scene.material_of(*hits[i])];
+        const Surface surface = make_surface(material, point.wo_local);
         sample.normal = point.frame.z;
         sample.albedo = surface.diffuse;
-        sample.emission = point.material->emission;
-        sample.radiance = point.material->emission;
+        sample.emission = sample.radiance = material.emission;
         shading.push_back({point, surface, {}});
         if (settings.occlusion == Occlusion::bent_cone) shading.back().bent_cone = scene.bent_cone(*hits[i], point);
         pixel.push_back(i);

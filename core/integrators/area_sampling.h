@@ -33,10 +33,13 @@ struct AreaView {
 /// Whether samples by area would vary without bound, so that BSDF samples must share: near the light, and at grazing
 /// views, where slopes are far from linear in the place. And always of a mesh's triangles: their choice among many
 /// knows less of the lobe than the lobe does.
-bool needs_bsdf_samples(const AreaLight& light, const SurfacePoint& point);
+template <class T>
+Mask<T> needs_bsdf_samples(const AreaView<T>& light, const Vec3<T>& wo_local) {
+    const T reach_m = T(1.2f) * (length(light.half_u) + length(light.half_v));
+    return light.triangle || length_squared(light.center) < sqr(reach_m) || wo_local.z < T(0.05f);
+}
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
-JointSurface<float> joint_surface(const Surface& surface);
 
 namespace detail {
 

@@ -3,8 +3,7 @@
 // float or SIMD batches; where a closed form does not hold, `valid` says so and the caller samples otherwise.
 #pragma once
 
-#include "core/bsdf/fresnel.h"
-#include "core/bsdf/ggx.h"
+#include "core/bsdf/surface.h"
 #include "core/distributions/elliptic_cone.h"
 
 namespace pivot {
@@ -17,6 +16,16 @@ struct JointSurface {
     T diffuse;                  // 0: no such lobe
     T fresnel_f0, fresnel_f90;  // both 0: no glossy lobe
 };
+
+template <class T>
+JointSurface<T> joint_surface(const SurfaceOf<T>& surface) {
+    const LobeFresnelOf<T>& f = surface.fresnel;
+    return {.wo_local = surface.wo_local,
+            .alpha = surface.alpha,
+            .diffuse = mean_component(surface.diffuse),
+            .fresnel_f0 = mean_component(f.schlick_f0 + f.dielectric_f0),
+            .fresnel_f90 = mean_component(f.schlick_f90 + f.dielectric_f90)};
+}
 
 template <class T>
 struct JointSample {

@@ -4,26 +4,21 @@
 // 64 lights.)
 #pragma once
 
+#include "core/integrators/vertex.h"
 #include "core/lights/light_tree.h"
-#include "core/scene/surface_point.h"
 
 namespace pivot {
 
-/// How much of each of eight lights a surface reflects if nothing is in the way, nearly: above 0 for each that reaches
-/// it. Relative to each other only.
-LightProxies::Values light_importance(const SurfacePoint& point, const Surface& surface, const LightProxies& proxies);
-
-struct LightChoice {
-    std::size_t light;
-    float probability;
+/// A light for each vertex of a batch.
+struct LightChoices {
+    std::array<std::size_t, batch_size> light;
+    Lanes probability;  ///< 0: none reaches the vertex
 };
 
-/// choices.size() lights, each by the probability it says; u in [0, 1) places them all, evenly. Those that find no
-/// light that reaches the point are left out: returns how many were chosen, at the front.
-std::size_t choose_lights(const LightTree& tree, const SurfacePoint& point, const Surface& surface, float u,
-                          std::span<LightChoice> choices);
+/// choices.size() lights for each vertex, each by the probability it says; u in [0, 1) places them all, evenly.
+void choose_lights(const LightTree& tree, const VertexBatch& vertices, const Batch& u, std::span<LightChoices> choices);
 
 /// With which probability each choice takes this light.
-float choice_probability(const LightTree& tree, const SurfacePoint& point, const Surface& surface, std::size_t light);
+float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_t light);
 
 }  // namespace pivot

@@ -24,7 +24,7 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
             area_.emplace(joint_surface(surface), view);
         else
             diffuse_technique_ = Technique::none;
-        shares_with_bsdf_ = needs_bsdf_samples(area, point);
+        shares_with_bsdf_ = needs_bsdf_samples(view, surface.wo_local);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};

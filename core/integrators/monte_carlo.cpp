@@ -1,6 +1,9 @@
 #include "core/integrators/monte_carlo.h"
 
+#include <numeric>
+
 #include "core/integrators/direct_light.h"
+#include "core/integrators/light_sampler.h"
 
 namespace pivot {
 namespace {
@@ -8,200 +11,248 @@ namespace {
 constexpr std::uint32_t first_roulette_bounce = 3;
 constexpr float max_roulette_survival = 0.95f;
 
+/// A path whose ray has met a surface.
+template <class T>
+struct PathOf {
+    Vec3<T> direction;   ///< of the ray
+    Vec3<T> throughput;  ///< up to the surface
+    RayHitOf<T> hit;
+    Word<T> material;
+    Word<T> sample;  ///< of the caller's
+};
+
+using Path = PathOf<float>;
+
+/// Paths that have reached the same bounce.
+using Paths = std::vector<Path>;
+
+/// The same, by material: what a batch's lanes have in common is done once for all. (Counted, stable.)
+void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& first_of) {
+    for (const Path& path : paths) {
+        if (path.material + 2 > first_of.size()) first_of.resize(path.material + 2);
+        ++first_of[path.material + 1];
+    }
+    std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
+    sorted.resize(paths.size());
+    for (const Path& path : paths) sorted[first_of[path.material]++] = path;
+    std::fill(first_of.begin(), first_of.end(), 0u);
+    paths.swap(sorted);
+}
+
+/// What all batches of a render's part share.
+struct Work {
+    const Scene& scene;
+    const RenderSettings& settings;
+    std::span<const Sampler> samplers;
+    std::span<Sample> samples;
+};
+
 /// The weight of a BSDF sample that meets a light, beside the light's own samples.
-float bsdf_weight(const Scene& scene, LightSampling strategy, const Vertex& vertex, std::size_t index,
+float bsdf_weight(const Work& work, const BouncePlan& plan, const Vertex& vertex, std::size_t index,
                   const LightPoint& place, float bsdf_pdf_omega) {
-    const LightSampler light(scene.lights()[index], vertex.point, vertex.surface, strategy);
+    const LightSampler light(work.scene.lights()[index], vertex.point, vertex.surface, work.settings.light_sampling);
     if (!light.shares_with_bsdf()) return 0.0f;
     const float light_pdf_omega = light.pdf_omega(place);  // 0: BSDF samples are alone
-    const float expected = light_pdf_omega > 0.0f ? expected_samples(scene, vertex, index) : 0.0f;
+    const float expected = light_pdf_omega > 0.0f ? expected_samples(work.scene, plan, vertex, index) : 0.0f;
     return balance(bsdf_pdf_omega, expected * light_pdf_omega);
 }
 
 /// What a BSDF sample that reaches distance_m meets of the lamps.
-Rgb lights_met(const Scene& scene, LightSampling strategy, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
-               float distance_m) {
-    const std::span<const Light> lamps = scene.lamps();
+Rgb lamps_met(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
+              float distance_m) {
+    const std::span<const Light> lamps = work.scene.lamps();
     Rgb radiance(0.0f);
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         const auto place = intersect_light(lamps[i], vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        radiance += place->radiance * bsdf_weight(scene, strategy, vertex, i, *place, bsdf_pdf_omega);
+        radiance += place->radiance * bsdf_weight(work, plan, vertex, i, *place, bsdf_pdf_omega);
     }
     return radiance;
 }
 
 /// The emission that a BSDF sample meets on a surface, weighted if its triangle is a light that is sampled.
-Rgb emission_met(const Scene& scene, LightSampling strategy, const Vertex& vertex, const Vec3f& wi,
-                 float bsdf_pdf_omega, const RayHit& hit, const Rgb& emission) {
-    const auto index = scene.light_of(hit);
+Rgb emission_met(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
+                 const RayHit& hit, const Rgb& emission) {
+    const auto index = work.scene.light_of(hit);
     if (!index) return emission;
-    const auto place = light_point(std::get<AreaLight>(scene.lights()[*index]), wi, hit.distance_m);
+    const auto place = light_point(std::get<AreaLight>(work.scene.lights()[*index]), wi, hit.distance_m);
     if (!place) return emission;
-    return emission * bsdf_weight(scene, strategy, vertex, *index, *place, bsdf_pdf_omega);
+    return emission * bsdf_weight(work, plan, vertex, *index, *place, bsdf_pdf_omega);
 }
 
-/// Light that a path brings by way of a vertex: what bounced may be bounded, at the price of some of it.
-void add_contribution(const RenderSettings& settings, std::uint32_t bounce, const Rgb& light, Rgb& radiance) {
-    const float size = mean_component(abs(light)), limit = settings.clamp_indirect;
-    radiance += bounce > 0 && limit > 0.0f && size > limit ? light * (limit / size) : light;
-}
-
-/// Paths that have reached the same bounce: their vertices side by side, for batches and packets.
-struct Paths {
-    std::vector<Vertex> vertices;
-    std::vector<Rgb> throughput;
-    std::vector<std::size_t> sample;   ///< of the caller's
-    std::vector<std::uint8_t> shares;  ///< whether the vertex' BSDF sample counts lights
-
-    std::size_t size() const { return vertices.size(); }
-
-    void reserve(std::size_t count) {
-        vertices.reserve(count);
-        throughput.reserve(count);
-        sample.reserve(count);
-    }
-
-    void add(const Vertex& vertex, const Rgb& weight, std::size_t of_sample) {
-        vertices.push_back(vertex);
-        throughput.push_back(weight);
-        sample.push_back(of_sample);
-    }
-
-    void keep(std::size_t count) {
-        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(count), vertices.end());
-        throughput.resize(count);
-        sample.resize(count);
-    }
+/// Up to a batch of paths at their vertices.
+struct PathBatch {
+    std::span<const Path> paths;
+    PathOf<Batch> lanes;
+    VertexBatch vertices;
 };
 
-Vertex make_vertex(const Scene& scene, const Sampler& sampler, const SurfacePoint& point, std::uint32_t bounce) {
-    return {.sampler = sampler,
-            .point = point,
-            .surface = make_surface(*point.material, point.wo_local),
-            .dimensions = Dimensions(bounce),
-            .lamp_samples = std::min(scene.lamps().size(), bounce == 0 ? max_lamp_samples : 1),
-            .triangle_samples = std::min(scene.triangle_lights().size(), bounce == 0 ? max_triangle_samples : 1)};
-}
-
-/// The camera's rays; those that meet nothing end here.
-Paths start_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                  std::span<const Sampler> samplers, std::span<Sample> samples) {
-    std::vector<std::optional<RayHit>> hits(camera_rays.size());
-    scene.intersect(camera_rays, visible_to_camera, hits);
-    Paths paths;
-    paths.reserve(camera_rays.size());
-    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
-        Sample& sample = samples[i] = {};
-        if (!hits[i]) {
-            if (settings.transparent_film) sample.alpha = 0.0f;
-            if (!settings.transparent_film) sample.radiance = scene.world();
-            continue;
-        }
-        const Vertex vertex = make_vertex(scene, samplers[i], scene.surface_point(camera_rays[i], *hits[i]), 0);
-        sample.radiance = sample.emission = vertex.point.material->emission;
-        sample.normal = vertex.point.frame.z;
-        sample.albedo = vertex.surface.diffuse;
-        paths.add(vertex, Rgb(1.0f), i);
+PathBatch make_batch(const Work& work, std::span<const Path> paths) {
+    std::array<const Path*, batch_size> lanes;
+    std::array<HitTriangleOf<float>, batch_size> triangles;
+    std::array<const HitTriangleOf<float>*, batch_size> triangle_lanes;
+    std::array<const Material*, batch_size> materials;
+    std::array<Sampler, batch_size> samplers;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const std::size_t place = std::min(i, paths.size() - 1);
+        lanes[i] = &paths[place];
+        if (i == place) triangles[i] = work.scene.hit_triangle(paths[i].hit);
+        triangle_lanes[i] = &triangles[place];
+        materials[i] = &work.scene.materials()[paths[place].material];
+        samplers[i] = work.samplers[paths[place].sample];
     }
-    return paths;
+    const PathOf<Batch> batch = pack<PathOf>(lanes);
+    const SurfacePointOf<Batch> point =
+        surface_point(pack<HitTriangleOf>(triangle_lanes), batch.hit.barycentric, -batch.direction);
+    const SurfaceOf<Batch> surface = make_surface(pack<MaterialOf>(materials), point.wo_local);
+    return {paths, batch, VertexBatch({sampler_lanes(samplers), point, surface}, paths.size())};
 }
 
-/// The light that reaches each vertex straight from the lights.
-void add_light(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, Paths& paths,
-               std::span<Sample> samples) {
-    std::vector<Rgb> direct(paths.size(), Rgb(0.0f));
-    paths.shares.assign(paths.size(), 0);
-    add_direct_light(scene, settings.light_sampling, paths.vertices, direct, paths.shares);
-    for (std::size_t i = 0; i < paths.size(); ++i)
-        add_contribution(settings, bounce, paths.throughput[i] * direct[i], samples[paths.sample[i]].radiance);
+/// What the passes tell of the first hits, and their own light.
+void see_first_hits(const Work& work, const PathBatch& batch) {
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        Sample& sample = work.samples[batch.paths[i].sample];
+        sample.radiance = sample.emission = work.scene.materials()[batch.paths[i].material].emission;
+        sample.normal = batch.vertices.lane(i).point.frame.z;
+        sample.albedo = batch.vertices.lane(i).surface.diffuse;
+    }
+}
+
+/// Adds the light that paths bring by way of their vertices: what bounced may be bounded, at the price of some of it.
+void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, Vec3b light) {
+    if (const float limit = work.settings.clamp_indirect; bounce > 0 && limit > 0.0f) {
+        const Batch size = mean_component(abs(light));
+        light = light * select(size > Batch(limit), Batch(limit) / size, Batch(1.0f));
+    }
+    const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
+    for (std::size_t i = 0; i < batch.paths.size(); ++i)
+        work.samples[batch.paths[i].sample].radiance += Rgb(r[i], g[i], b[i]);
 }
 
 /// A BSDF sample of each path: its ray, and what the path is worth along it.
 struct Scattered {
-    std::vector<Ray> rays;
-    std::vector<float> pdf_omega;
+    RayOf<Batch> rays;
+    Vec3b throughput;
+    Batch pdf_omega;
+    BatchMask goes_on;  ///< elsewhere the sample is worth nothing, or not wanted
+    Batch u_roulette;
 };
 
-/// Paths whose sample is worth nothing are dropped, and so are, at the last bounce, those that can meet no light; the
-/// others move up.
-Scattered scatter(Paths& paths, bool is_for_shared_lights) {
-    Scattered scattered;
-    scattered.rays.reserve(paths.size());
-    scattered.pdf_omega.reserve(paths.size());
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (is_for_shared_lights && !paths.shares[i]) continue;
-        const Vertex& vertex = paths.vertices[i];
-        const SurfacePoint& point = vertex.point;
-        const Vec3f wi_local = pivot::sample(vertex.surface, vertex.sampler.number(vertex.dimensions.lobe()),
-                                             vertex.sampler.point(vertex.dimensions.direction()));
-        const Vec3f wi = point.frame.to_world(wi_local);
-        const float bsdf_pdf_omega = pdf_omega(vertex.surface, wi_local);
-        if (!(bsdf_pdf_omega > 0.0f) || !point.faces(wi)) continue;
-        const Rgb throughput = paths.throughput[i] * eval(vertex.surface, wi_local) / bsdf_pdf_omega;
-        if (max_component(throughput) <= 0.0f) continue;
-        scattered.rays.push_back({point.ray_origin(wi), wi});
-        scattered.pdf_omega.push_back(bsdf_pdf_omega);
-        paths.vertices[kept] = vertex;
-        paths.throughput[kept] = throughput;
-        paths.sample[kept] = paths.sample[i];
-        paths.shares[kept] = paths.shares[i];
-        ++kept;
-    }
-    paths.keep(kept);
-    return scattered;
+Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMask& wanted) {
+    const VertexBatch& vertices = batch.vertices;
+    const Vec2b u_lobe = vertices.sampler.point(plan.dimensions.lobe());
+    const Vec3b wi_local = sample(vertices.surface, u_lobe.x, vertices.sampler.point(plan.dimensions.direction()));
+    const Vec3b wi = vertices.point.frame.to_world(wi_local);
+    const Batch zero(0.0f), pdf = pdf_omega(vertices.surface, wi_local);
+    const Vec3b throughput = batch.lanes.throughput * eval(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
+    const BatchMask goes_on =
+        wanted && vertices.is_vertex() && pdf > zero && vertices.point.faces(wi) && max_component(throughput) > zero;
+    return {.rays = {.origin = vertices.point.ray_origin(wi),
+                     .direction = wi,
+                     .near_m = zero,
+                     .far_m = select(goes_on, std::numeric_limits<Batch>::infinity(), zero)},
+            .throughput = throughput,
+            .pdf_omega = pdf,
+            .goes_on = goes_on,
+            .u_roulette = u_lobe.y};  // free: the first number chose the lobe
 }
 
-/// Follows the rays of a bounce to what they meet: lights, the world, or the paths' next vertices, which are returned.
-Paths next_vertices(const Scene& scene, const RenderSettings& settings, const Paths& paths, const Scattered& scattered,
-                    std::uint32_t bounce, std::span<Sample> samples) {
-    std::vector<std::optional<RayHit>> hits(paths.size());
-    scene.intersect(scattered.rays, visible_to_light, hits);
-    Paths next;
-    next.reserve(paths.size());
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const Vertex& vertex = paths.vertices[i];
-        const Ray& ray = scattered.rays[i];
-        Rgb throughput = paths.throughput[i];
-        const auto add = [&](const Rgb& light) {
-            add_contribution(settings, bounce, throughput * light, samples[paths.sample[i]].radiance);
-        };
-        if (paths.shares[i]) {
-            const float reached_m = hits[i] ? hits[i]->distance_m : ray.far_m;
-            add(lights_met(scene, settings.light_sampling, vertex, ray.direction, scattered.pdf_omega[i], reached_m));
+/// Follows a bounce's rays to what they meet: lights, the world, or the paths' next vertices.
+void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, const PathBatch& batch,
+            const Scattered& scattered, const LaneFlags& shares, Paths& next) {
+    const Scene& scene = work.scene;
+    const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
+    const std::array<Path, batch_size> paths = unpack<PathOf>({.direction = scattered.rays.direction,
+                                                               .throughput = scattered.throughput,
+                                                               .hit = hit,
+                                                               .material = batch.lanes.material,
+                                                               .sample = batch.lanes.sample});
+    const auto goes_on = store(scattered.goes_on);
+    const Lanes pdf_omega = store(scattered.pdf_omega), u_roulette = store(scattered.u_roulette);
+    const Lanes survival = store(min(max_component(scattered.throughput), Batch(max_roulette_survival)));
+    Lanes r{}, g{}, b{};
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        if (!goes_on[i]) continue;
+        Path path = paths[i];
+        const bool is_met = path.hit.instance != no_instance;
+        Rgb light = is_met ? Rgb(0.0f) : scene.world();
+        if (shares[i])
+            light += lamps_met(work, plan, batch.vertices.lane(i), path.direction, pdf_omega[i],
+                               is_met ? path.hit.distance_m : std::numeric_limits<float>::infinity());
+        if (is_met) {
+            path.material = scene.material_of(path.hit);
+            const Material& material = scene.materials()[path.material];
+            if (material.is_emissive())
+                light += emission_met(work, plan, batch.vertices.lane(i), path.direction, pdf_omega[i], path.hit,
+                                      material.emission);
         }
-        if (!hits[i]) {
-            add(scene.world());
-            continue;
-        }
+        r[i] = light.x, g[i] = light.y, b[i] = light.z;
+        if (!is_met || bounce == work.settings.max_bounces) continue;
         if (bounce >= first_roulette_bounce) {
-            const float survival = std::min(max_component(throughput), max_roulette_survival);
-            // The lobe's second number is free: the first chose the lobe.
-            if (vertex.sampler.point(vertex.dimensions.lobe()).y >= survival) continue;
-            throughput /= survival;
+            if (u_roulette[i] >= survival[i]) continue;
+            path.throughput /= survival[i];
         }
-        const SurfacePoint point = scene.surface_point(ray, *hits[i]);
-        if (point.material->is_emissive())
-            add(emission_met(scene, settings.light_sampling, vertex, ray.direction, scattered.pdf_omega[i], *hits[i],
-                             point.material->emission));
-        if (bounce < settings.max_bounces)
-            next.add(make_vertex(scene, vertex.sampler, point, bounce + 1), throughput, paths.sample[i]);
+        next.push_back(path);
     }
-    return next;
+    add_light(work, bounce, batch, scattered.throughput * Vec3b(load(r), load(g), load(b)));
+}
+
+/// Traces up to a batch of paths from their vertices on: what light they bring there, and where they go next.
+void trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce, std::span<const Path> paths,
+                  Paths& next) {
+    const PathBatch batch = make_batch(work, paths);
+    if (bounce == 0) see_first_hits(work, batch);
+    LaneFlags shares{};
+    add_light(
+        work, bounce, batch,
+        batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shares));
+    // The last rays are for light that is sampled by BSDF samples alone, or by both.
+    Lanes wanted{};
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const bool is_last = bounce == work.settings.max_bounces;
+        wanted[i] = !is_last || work.scene.has_unsampled_light() || shares[i] ? 1.0f : 0.0f;
+    }
+    const Scattered scattered = scatter(plan, batch, load(wanted) > Batch(0.0f));
+    if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shares, next);
+}
+
+/// The camera's rays; those that meet nothing end here.
+void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& paths) {
+    std::vector<std::optional<RayHit>> hits(camera_rays.size());
+    work.scene.intersect(camera_rays, visible_to_camera, hits);
+    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
+        Sample& sample = work.samples[i] = {};
+        if (hits[i]) {
+            paths.push_back({.direction = camera_rays[i].direction,
+                             .throughput = Rgb(1.0f),
+                             .hit = *hits[i],
+                             .material = work.scene.material_of(*hits[i]),
+                             .sample = static_cast<std::uint32_t>(i)});
+        } else if (work.settings.transparent_film) {
+            sample.alpha = 0.0f;
+        } else {
+            sample.radiance = work.scene.world();
+        }
+    }
 }
 
 }  // namespace
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
-    Paths paths = start_paths(scene, settings, camera_rays, samplers, samples);
-    for (std::uint32_t bounce = 0; paths.size() > 0; ++bounce) {
-        add_light(scene, settings, bounce, paths, samples);
-        const bool is_last = bounce == settings.max_bounces;
-        const Scattered scattered = scatter(paths, is_last && !scene.has_unsampled_light());
-        paths = next_vertices(scene, settings, paths, scattered, bounce, samples);
+    const Work work{scene, settings, samplers, samples};
+    Paths paths, next;
+    std::vector<std::uint32_t> material_counts;
+    start_paths(work, camera_rays, paths);
+    for (std::uint32_t bounce = 0; !paths.empty(); ++bounce) {
+        sort_by_material(paths, next, material_counts);
+        next.clear();
+        const BouncePlan plan = plan_bounce(scene, bounce);
+        for (std::size_t first = 0; first < paths.size(); first += batch_size)
+            trace_bounce(work, plan, bounce,
+                         std::span(paths).subspan(first, std::min(batch_size, paths.size() - first)), next);
+        paths.swap(next);
     }
 }
 

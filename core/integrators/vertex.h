@@ -1,15 +1,18 @@
-// A vertex of a path, and which of the sampler's dimensions it takes.
+// Vertices of paths, over float or batches, and which of the sampler's dimensions they take.
 #pragma once
+
+#include <optional>
 
 #include "core/sampling/sobol.h"
 #include "core/scene/surface_point.h"
+#include "core/simd/pack.h"
 
 namespace pivot {
 
 /// With more lamps than this, a first vertex samples that many of them, chosen by their importance; with fewer, all.
 inline constexpr std::size_t max_lamp_samples = 8;
 /// And so many of the triangles of emissive meshes, apart: however many shine, every lamp keeps its samples.
-inline constexpr std::size_t max_triangle_samples = 4;
+inline constexpr std::size_t max_triangle_samples = 2;
 inline constexpr std::size_t max_light_samples = max_lamp_samples + max_triangle_samples;
 
 /// Sampler dimensions of one bounce: the BSDF's two, the choice of lights, then one per light sample.
@@ -26,14 +29,40 @@ struct Dimensions {
     }
 };
 
-/// A path's vertex: what its light samples and its BSDF sample both need.
-struct Vertex {
-    Sampler sampler;
-    SurfacePoint point;
-    Surface surface;
+/// How all vertices of a bounce are sampled.
+struct BouncePlan {
     Dimensions dimensions;
     std::size_t lamp_samples;      ///< as many as there are lamps: one of each; fewer: as chosen
     std::size_t triangle_samples;  ///< likewise
+};
+
+/// A path's vertex: what its light samples and its BSDF sample both need.
+template <class T>
+struct VertexOf {
+    SamplerOf<Word<T>> sampler;
+    SurfacePointOf<T> point;
+    SurfaceOf<T> surface;
+};
+
+using Vertex = VertexOf<float>;
+
+/// Vertices of one bounce side by side; lanes past `count` repeat the last.
+class VertexBatch : public VertexOf<Batch> {
+   public:
+    VertexBatch(const VertexOf<Batch>& vertices, std::size_t count) : VertexOf<Batch>(vertices), count_(count) {}
+
+    std::size_t count() const { return count_; }
+    BatchMask is_vertex() const { return first_lanes(count_); }
+
+    /// One of them.
+    const Vertex& lane(std::size_t i) const {
+        if (!lanes_) lanes_ = unpack<VertexOf>(*this);
+        return (*lanes_)[i];
+    }
+
+   private:
+    std::size_t count_;
+    mutable std::optional<std::array<Vertex, batch_size>> lanes_;
 };
 
 }  // namespace pivot

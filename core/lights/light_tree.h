@@ -8,13 +8,22 @@
 #include <vector>
 
 #include "core/lights/light.h"
+#include "core/simd/batch.h"
 
 namespace pivot {
 
 inline constexpr std::size_t light_tree_width = 8;
 
-/// Eight lights, or groups of lights, as SIMD reads them: each a sphere with the mean radiance over colours. A flat
-/// light or patch is the sphere of its area, seen at its slant; a sun is a cap.
+/// Lights, or groups of lights, each a sphere with the mean radiance over colours. A flat light or patch is the sphere
+/// of its area, seen at its slant; a sun is a cap.
+struct LightProxy {
+    Vec3b center;
+    Batch radius_m, radiance;
+    Vec3b normal;
+    Batch cos_cone, least_lit, two_sided, sun_versine;
+};
+
+/// Eight of them as a node keeps them.
 struct LightProxies {
     using Values = std::array<float, light_tree_width>;
     Values center_x{}, center_y{}, center_z{};  ///< of a sun: the direction towards it
@@ -26,8 +35,30 @@ struct LightProxies {
     Values two_sided{};                         ///< 1 of a flat light that shines from both sides
     Values sun_versine{};                       ///< above 0: this is a sun
 
+    /// From child `first` on, one a lane.
+    LightProxy batch(std::size_t first) const {
+        return read([&](const Values& values) { return Batch::load_unaligned(&values[first]); });
+    }
+    /// A child in every lane.
+    LightProxy broadcast(std::size_t child) const {
+        return read([&](const Values& values) { return Batch(values[child]); });
+    }
+
     void set_sphere(std::size_t child, const Vec3f& center, float radius, float mean_radiance);
     void set_flat(std::size_t child, const AreaLight& light);
+
+   private:
+    template <class Of>
+    LightProxy read(const Of& of) const {
+        return {{of(center_x), of(center_y), of(center_z)},
+                of(radius_m),
+                of(radiance),
+                {of(normal_x), of(normal_y), of(normal_z)},
+                of(cos_cone),
+                of(least_lit),
+                of(two_sided),
+                of(sun_versine)};
+    }
 };
 
 class LightTree {

@@ -45,7 +45,27 @@ requires(!std::same_as<M, bool>) Vec3<T> select(const M& condition, const Vec3<T
     return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
-inline float max_component(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
-inline float mean_component(const Rgb& c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
+// GLM's own compare with a bool.
+template <class T>
+Vec3<T> min(const Vec3<T>& a, const Vec3<T>& b) {
+    return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+template <class T>
+Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
+    return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+template <class T>
+Vec3<T> abs(const Vec3<T>& v) {
+    return {abs(v.x), abs(v.y), abs(v.z)};
+}
+
+template <class T>
+T max_component(const Vec3<T>& c) {
+    return max(max(c.x, c.y), c.z);
+}
+template <class T>
+T mean_component(const Vec3<T>& c) {
+    return (c.x + c.y + c.z) * T(1.0f / 3.0f);
+}
 
 }  // namespace pivot

@@ -12,11 +12,11 @@ template <class T>
 Vec2<T> sample_disk(const Vec2<T>& u) {
     const T a = T(2) * u.x - T(1);
     const T b = T(2) * u.y - T(1);
-    if (a == T(0) && b == T(0)) return {T(0), T(0)};
-    const bool steep = abs(b) > abs(a);
-    const T radius = steep ? b : a;
-    const T phi = steep ? pi<T> / T(2) - pi<T> / T(4) * (a / b) : pi<T> / T(4) * (b / a);
-    return {radius * cos(phi), radius * sin(phi)};
+    const Mask<T> steep = abs(b) > abs(a);
+    const T radius = select(steep, b, a), other = select(steep, a, b);
+    const T turn = pi<T> / T(4) * (other / select(radius == T(0), T(1), radius));
+    const T across = radius * sin(turn), along = radius * cos(turn);
+    return {select(steep, across, along), select(steep, along, across)};
 }
 
 /// Hemisphere about +z with pdf_omega = z / pi.

@@ -101,27 +101,33 @@ void occluded_packets(Call call, RTCScene scene, std::span<const Ray> rays, std:
     }
 }
 
-/// Some of a packet's rays, as one of Embree's packets.
-template <class Packet, class Call>
-void test_visibility(Call call, RTCScene scene, const RayPacket& rays, std::size_t first,
-                     RayPacket::Values& visibility) {
-    constexpr std::size_t width = width_of<Packet>;
-    alignas(64) int valid[width];
-    Packet r;
-    const auto copy = [&](const RayPacket::Values& from, float* to) { std::copy_n(from.data() + first, width, to); };
-    copy(rays.origin_x, r.org_x), copy(rays.origin_y, r.org_y), copy(rays.origin_z, r.org_z);
-    copy(rays.direction_x, r.dir_x), copy(rays.direction_y, r.dir_y), copy(rays.direction_z, r.dir_z);
-    copy(rays.far_m, r.tfar);
+#ifdef __AVX2__
+using BatchRays = RTCRay8;
+using BatchHits = RTCRayHit8;
+constexpr auto intersect_batch = rtcIntersect8;
+constexpr auto occluded_batch = rtcOccluded8;
+#else
+using BatchRays = RTCRay4;
+using BatchHits = RTCRayHit4;
+constexpr auto intersect_batch = rtcIntersect4;
+constexpr auto occluded_batch = rtcOccluded4;
+#endif
+static_assert(width_of<BatchRays> == batch_size && no_instance == RTC_INVALID_GEOMETRY_ID);
+
+/// Those of the batch that are rays, into `packet`; `valid` as in fill_packet. Returns whether any is.
+bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::uint32_t mask) {
+    const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
+    put(rays.origin.x, packet.org_x), put(rays.origin.y, packet.org_y), put(rays.origin.z, packet.org_z);
+    put(rays.direction.x, packet.dir_x), put(rays.direction.y, packet.dir_y), put(rays.direction.z, packet.dir_z);
+    put(rays.near_m, packet.tnear), put(rays.far_m, packet.tfar), put(Batch(0.0f), packet.time);
     bool any = false;
-    for (std::size_t i = 0; i < width; ++i) {
-        valid[i] = r.tfar[i] > 0.0f ? -1 : 0;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        valid[i] = packet.tfar[i] > 0.0f ? -1 : 0;
         any = any || valid[i];
-        r.tnear[i] = r.time[i] = 0.0f;
-        r.mask[i] = visible_to_light;
-        r.flags[i] = 0;
+        packet.mask[i] = mask;
+        packet.flags[i] = 0;
     }
-    if (any) trace(call, scene, r, valid);
-    for (std::size_t i = 0; i < width; ++i) visibility[first + i] = r.tfar[i] > 0.0f ? 1.0f : 0.0f;
+    return any;
 }
 
 }  // namespace
@@ -272,19 +278,26 @@ void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occl
     for (std::size_t i = 0; i < rays.size(); ++i) occluded_rays[i] = occluded(rays[i]);
 }
 
-RayPacket::Values RayTracer::visibility(const RayPacket& rays) const {
-    const auto& self = *implementation_;
-    RayPacket::Values visibility;
-    if (self.packet_width == 16) {
-        test_visibility<RTCRay16>(rtcOccluded16, self.world.get(), rays, 0, visibility);
-    } else if (self.packet_width == 8) {
-        for (std::size_t first = 0; first < RayPacket::width; first += 8)
-            test_visibility<RTCRay8>(rtcOccluded8, self.world.get(), rays, first, visibility);
-    } else {
-        for (std::size_t first = 0; first < RayPacket::width; first += 4)
-            test_visibility<RTCRay4>(rtcOccluded4, self.world.get(), rays, first, visibility);
+RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) const {
+    alignas(64) int valid[batch_size];
+    BatchHits r;
+    const bool any = fill_packet(r.ray, valid, rays, from);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        r.hit.instID[0][i] = no_instance;
     }
-    return visibility;
+    if (any) trace(intersect_batch, implementation_->world.get(), r, valid);
+    return {.distance_m = Batch::load_unaligned(r.ray.tfar),
+            .instance = WordBatch::load_unaligned(r.hit.instID[0]),
+            .triangle = WordBatch::load_unaligned(r.hit.primID),
+            .barycentric = {Batch::load_unaligned(r.hit.u), Batch::load_unaligned(r.hit.v)}};
+}
+
+Batch RayTracer::visibility(const RayOf<Batch>& rays) const {
+    alignas(64) int valid[batch_size];
+    BatchRays r;
+    if (fill_packet(r, valid, rays, visible_to_light)) trace(occluded_batch, implementation_->world.get(), r, valid);
+    return select(Batch::load_unaligned(r.tfar) > Batch(0.0f), Batch(1.0f), Batch(0.0f));
 }
 
 }  // namespace pivot

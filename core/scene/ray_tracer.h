@@ -9,30 +9,30 @@
 
 #include "core/math/transform.h"
 #include "core/scene/mesh.h"
+#include "core/simd/batch.h"
 
 namespace pivot {
 
-struct Ray {
-    Vec3f origin;
-    Vec3f direction;  ///< unit
-    float near_m = 0.0f;
-    float far_m = std::numeric_limits<float>::infinity();
+/// Over float, or a batch of rays.
+template <class T>
+struct RayOf {
+    Vec3<T> origin;
+    Vec3<T> direction;  ///< unit
+    T near_m = T(0);
+    T far_m = std::numeric_limits<T>::infinity();  ///< of a batch; not above 0: there is no such ray
 };
 
-struct RayHit {
-    float distance_m;
-    std::uint32_t instance;
-    std::uint32_t triangle;
-    Vec2f barycentric;  ///< weights of the triangle's second and third corner
+template <class T>
+struct RayHitOf {
+    T distance_m;
+    Word<T> instance;  ///< of a batch; no_instance: the ray met nothing
+    Word<T> triangle;
+    Vec2<T> barycentric;  ///< weights of the triangle's second and third corner
 };
 
-/// Rays side by side, as SIMD makes them.
-struct RayPacket {
-    static constexpr std::size_t width = 16;
-    using Values = std::array<float, width>;
-    alignas(64) Values origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
-    Values far_m;  ///< not above 0: there is no such ray
-};
+using Ray = RayOf<float>;
+using RayHit = RayHitOf<float>;
+inline constexpr std::uint32_t no_instance = ~0u;
 
 /// Who sees an instance.
 enum Visibility : std::uint32_t { visible_to_camera = 1, visible_to_light = 2, visible_to_all = 3 };
@@ -58,8 +58,10 @@ class RayTracer {
     /// Many at once, in SIMD packets of neighbours in the span: up to 3 times the rate. hits: one per ray.
     void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
-    /// 1 for each ray of the packet that meets nothing, else 0.
-    RayPacket::Values visibility(const RayPacket& rays) const;
+
+    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const;
+    /// 1 for each ray that meets nothing, else 0.
+    Batch visibility(const RayOf<Batch>& rays) const;
 
    private:
     struct Implementation;

@@ -70,14 +70,6 @@ T& at_present(std::vector<std::optional<T>>& items, std::uint32_t id, const char
     return *item;
 }
 
-/// Shading normals may lean away from the viewer where the surface is seen; there they are bent until wo lies above.
-Vec3f bend_towards(const Vec3f& normal, const Vec3f& wo) {
-    constexpr float min_cos = 1e-3f;
-    const float cos_o = dot(normal, wo);
-    if (cos_o >= min_cos) return normal;
-    return normalize(normal + (2.0f * min_cos - cos_o) * wo);
-}
-
 }  // namespace
 
 void Scene::begin_edit() {
@@ -212,6 +204,10 @@ void Scene::commit() {
     is_committed_ = true;
 }
 
+std::uint32_t Scene::material_of(const RayHit& hit) const {
+    return material_of(*instances_[hit.instance], hit.triangle);
+}
+
 std::uint32_t Scene::material_of(const Instance& instance, std::uint32_t triangle) const {
     const Mesh& mesh = *meshes_[instance.mesh];
     const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[triangle];
@@ -274,51 +270,25 @@ std::size_t Scene::memory_bytes() const {
     return bytes;
 }
 
-SurfacePoint Scene::surface_point(const Ray& ray, const RayHit& hit) const {
+HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
     const Instance& instance = *instances_[hit.instance];
     const Mesh& mesh = *meshes_[instance.mesh];
-    const Transform& transform = instance.world_from_object;
     const Triangle& t = mesh.triangles[hit.triangle];
-    const Vec3f& a = mesh.positions[t.x];
-    const Vec3f& b = mesh.positions[t.y];
-    const Vec3f& c = mesh.positions[t.z];
-    const Vec3f wo = -ray.direction;
-
-    // From the triangle, not along the ray: the error is then that of the surface, not of the ray's length.
-    const Vec3f p_object = a + hit.barycentric.x * (b - a) + hit.barycentric.y * (c - a);
-    const Vec3f position = transform.point(p_object);
-    // Rounding is relative to what is summed, the corners, not to a sum that may be 0.
-    const Vec3f corner_size = max(max(abs(a), abs(b)), abs(c));
-    const Vec3f magnitude = abs(transform.linear[0]) * corner_size.x + abs(transform.linear[1]) * corner_size.y +
-                            abs(transform.linear[2]) * corner_size.z + abs(transform.translation);
-    constexpr float error_per_magnitude = 0x1p-20f;  // a few roundings of 2^-24 each, with room
-
-    const Vec3f n_object = cross(b - a, c - a);
-    Vec3f normal_geometric = normalize(instance.normal_matrix * n_object);
-    Vec3f normal_shading = normal_geometric;
+    HitTriangleOf<float> triangle{.corner_a = mesh.positions[t.x],
+                                  .corner_b = mesh.positions[t.y],
+                                  .corner_c = mesh.positions[t.z],
+                                  .normal_a = Vec3f(0.0f),
+                                  .normal_b = Vec3f(0.0f),
+                                  .normal_c = Vec3f(0.0f),
+                                  .world_from_object = instance.world_from_object,
+                                  .normal_matrix = instance.normal_matrix};
     if (!mesh.corner_normals.empty()) {
         const Triangle& corner = mesh.triangle_corners[hit.triangle];
-        const float w = 1.0f - hit.barycentric.x - hit.barycentric.y;
-        const Vec3f n = instance.normal_matrix *
-                        (w * mesh.corner_normals[corner.x] + hit.barycentric.x * mesh.corner_normals[corner.y] +
-                         hit.barycentric.y * mesh.corner_normals[corner.z]);
-        if (length_squared(n) > 0.0f) normal_shading = normalize(n);
+        triangle.normal_a = mesh.corner_normals[corner.x];
+        triangle.normal_b = mesh.corner_normals[corner.y];
+        triangle.normal_c = mesh.corner_normals[corner.z];
     }
-    // A normal of the wrong side (flipped custom normals) is turned with the surface it belongs to.
-    if (dot(normal_shading, normal_geometric) < 0.0f) normal_shading = -normal_shading;
-    const bool is_front = dot(normal_geometric, wo) >= 0.0f;
-    if (!is_front) {
-        normal_geometric = -normal_geometric;
-        normal_shading = -normal_shading;
-    }
-    const Frame<float> frame = frame_from_z(bend_towards(normal_shading, wo));
-    return {.position = position,
-            .normal_geometric = normal_geometric,
-            .frame = frame,
-            .error_m = error_per_magnitude * max_component(magnitude),
-            .is_front = is_front,
-            .material = &materials_[material_of(instance, hit.triangle)],
-            .wo_local = frame.to_local(wo)};
+    return triangle;
 }
 
 }  // namespace pivot

@@ -80,11 +80,20 @@ class Scene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
         ray_tracer_.occluded(rays, occluded_rays);
     }
-    RayPacket::Values visibility(const RayPacket& rays) const { return ray_tracer_.visibility(rays); }
-    SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const;
+    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const {
+        return ray_tracer_.intersect(rays, from);
+    }
+    Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
+    HitTriangleOf<float> hit_triangle(const RayHit& hit) const;
+    SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
+        return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
+    }
+    /// By their ids.
+    std::span<const Material> materials() const { return materials_; }
+    std::uint32_t material_of(const RayHit& hit) const;
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
-        return bent_cones_[hit.instance]->at(hit, point.is_front);
+        return bent_cones_[hit.instance]->at(hit, point.front > 0.0f);
     }
 
    private:

@@ -53,10 +53,32 @@ using Vec3b = Vec3<Batch>;
 inline bool any(const BatchMask& condition) { return xsimd::any(condition); }
 
 using WordBatch = xsimd::batch<std::uint32_t>;
+using IndexBatch = xsimd::batch<std::int32_t>;
+
+/// A 32-bit word, or one a lane, beside numbers T.
+template <class T>
+using Word = std::conditional_t<std::is_same_v<T, Batch>, WordBatch, std::uint32_t>;
+/// A place in a table.
+template <class T>
+using Index = std::conditional_t<std::is_same_v<T, Batch>, IndexBatch, std::int32_t>;
+
+/// Of a whole number.
+inline std::int32_t to_index(float x) { return static_cast<std::int32_t>(x); }
+inline IndexBatch to_index(const Batch& x) { return xsimd::to_int(x); }
+
+inline float fetch(const float* table, std::int32_t index) { return table[index]; }
+inline Batch fetch(const float* table, const IndexBatch& index) { return Batch::gather(table, index); }
 
 /// [0, 1) with 24 bits.
 inline Batch to_unit(const WordBatch& x) {
     return xsimd::to_float(std::bit_cast<xsimd::batch<std::int32_t>>(x >> 8)) * Batch(0x1p-24f);
+}
+
+/// True in so many lanes, from the first.
+inline BatchMask first_lanes(std::size_t count) {
+    alignas(sizeof(Batch)) std::array<float, batch_size> places;
+    for (std::size_t i = 0; i < batch_size; ++i) places[i] = static_cast<float>(i);
+    return Batch::load_aligned(places.data()) < Batch(static_cast<float>(count));
 }
 
 /// A value per lane, for gathering and scattering.

@@ -8,19 +8,28 @@ PIVOT_EMBED_TABLE(pivot_ggx_average_albedo, "ggx_average_albedo.f32")
 
 namespace pivot {
 
-float ggx_albedo(float alpha, float cos_o) {
+template <class T>
+T ggx_albedo(T alpha, T cos_o) {
     const TableCell row = table_cell(alpha_coordinate(alpha), ggx_sptd_nodes);
     const TableCell column = table_cell(cos_coordinate(cos_o), ggx_sptd_nodes);
+    const Index<T> node = (row.index * ggx_sptd_nodes + column.index) * 3;
     const auto along_cos = [&](int alpha_index) {
-        const float* node = ggx_sptd_table() + (alpha_index * ggx_sptd_nodes + column.index) * 3 + 2;
-        return lerp(node[0], node[3], column.weight);
+        const float* table = ggx_sptd_table() + alpha_index * ggx_sptd_nodes * 3 + 2;
+        return lerp(fetch(table, node), fetch(table + 3, node), column.weight);
     };
-    return lerp(along_cos(row.index), along_cos(row.index + 1), row.weight);
+    return lerp(along_cos(0), along_cos(1), row.weight);
 }
 
-float ggx_average_albedo(float alpha) {
+template <class T>
+T ggx_average_albedo(T alpha) {
     const TableCell cell = table_cell(alpha_coordinate(alpha), ggx_albedo_nodes);
-    return lerp(pivot_ggx_average_albedo[cell.index], pivot_ggx_average_albedo[cell.index + 1], cell.weight);
+    return lerp(fetch(pivot_ggx_average_albedo, cell.index), fetch(pivot_ggx_average_albedo + 1, cell.index),
+                cell.weight);
 }
+
+template float ggx_albedo(float, float);
+template Batch ggx_albedo(Batch, Batch);
+template float ggx_average_albedo(float);
+template Batch ggx_average_albedo(Batch);
 
 }  // namespace pivot

@@ -1,0 +1,154 @@
+#include "core/integrators/light_lanes.h"
+
+#include "core/integrators/area_sampling.h"
+
+namespace pivot {
+namespace {
+
+/// A cap-shaped light as all kinds of them are.
+template <class T>
+struct CapLightOf {
+    Vec3<T> center;  ///< of a sun: the direction towards it
+    T radius_m;
+    T is_facing_disk;  ///< 0 or 1
+    T sun_versine;     ///< above 0: this is a sun
+    Vec3<T> radiance;
+    Vec3<T> spot_direction;  ///< 0: not a spot
+    T cos_edge;              ///< where a spot's falloff starts
+    T falloff_width;
+    T is_cosine;  ///< 0 or 1: whether a spot's cosine counts too
+};
+
+CapLightOf<float> cap_light(const Light& light) {
+    constexpr float below_all = -2.0f;  // cosines: other lights fall off nowhere
+    if (const auto* sun = std::get_if<SunLight>(&light))
+        return {sun->cap.axis, 0.0f, 0.0f, sun->cap.versine, sun->radiance, Vec3f(0.0f), below_all, 1.0f, 0.0f};
+    const SphereLight& sphere = *sphere_of(light);
+    CapLightOf<float> cap{sphere.center,
+                          sphere.radius_m,
+                          sphere.is_facing_disk ? 1.0f : 0.0f,
+                          0.0f,
+                          sphere.radiance,
+                          Vec3f(0.0f),
+                          below_all,
+                          1.0f,
+                          0.0f};
+    if (const auto* spot = std::get_if<SpotLight>(&light)) {
+        cap.spot_direction = spot->direction;
+        cap.cos_edge = spot->cos_half_angle;
+        cap.falloff_width = spot_falloff_width(*spot);
+        cap.is_cosine = spot->is_cosine ? 1.0f : 0.0f;
+    }
+    return cap;
+}
+
+template <class T>
+struct AreaLightOf {
+    Vec3<T> center, half_u, half_v, normal;
+    Vec3<T> radiance;
+    T parallelogram_m2, is_ellipse, is_triangle;  ///< 0 or 1
+    T surface_error_m;
+};
+
+AreaLightOf<float> area_light(const Light& light) {
+    const auto& area = std::get<AreaLight>(light);
+    return {area.center,
+            area.half_u,
+            area.half_v,
+            area.normal,
+            area.radiance,
+            parallelogram_m2(area),
+            area.shape == AreaShape::ellipse ? 1.0f : 0.0f,
+            area.shape == AreaShape::triangle ? 1.0f : 0.0f,
+            surface_error_m(area)};
+}
+
+/// Each lane's light as numbers.
+template <template <class> class Numbers, class NumbersOf>
+Numbers<Batch> pack_lights(const std::array<const Light*, batch_size>& lights, const NumbersOf& numbers_of) {
+    std::array<Numbers<float>, batch_size> each;
+    std::array<const Numbers<float>*, batch_size> lanes;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const bool again = i > 0 && lights[i] == lights[i - 1];
+        if (!again) each[i] = numbers_of(*lights[i]);
+        lanes[i] = again ? lanes[i - 1] : &each[i];
+    }
+    return pack<Numbers>(lanes);
+}
+
+}  // namespace
+
+LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
+                              const Vec2b& u) {
+    const SurfacePointOf<Batch>& point = vertices.point;
+    const SurfaceOf<Batch>& surface = vertices.surface;
+    const auto light = pack_lights<CapLightOf>(lights, cap_light);
+    const Vec3b to_center = light.center - point.position;
+    const BatchMask is_sun = light.sun_versine > Batch(0.0f), is_disk = light.is_facing_disk > Batch(0.0f);
+    Cap<Batch> seen = cap_of_sphere(to_center, light.radius_m);
+    if (any(is_disk)) {
+        const Cap<Batch> disk = cap_of_facing_disk(to_center, light.radius_m);
+        seen = {select(is_disk, disk.axis, seen.axis), select(is_disk, disk.versine, seen.versine)};
+    }
+    const Cap<Batch> cap{select(is_sun, light.center, seen.axis), select(is_sun, light.sun_versine, seen.versine)};
+
+    const JointSample<Batch> s =
+        sample_jointly(joint_surface(surface), Cap<Batch>{point.frame.to_local(cap.axis), cap.versine}, u);
+    const Batch cos_oh = Batch(0.5f) * length(surface.wo_local + s.wi_local);
+    const Vec3b wi = point.frame.to_world(s.wi_local);
+    const BatchMask faces = dot(wi, point.normal_geometric) > Batch(0.0f) && s.wi_local.z > Batch(0.0f);
+    const Batch cos_spot = -dot(wi, light.spot_direction);
+    const Batch falloff = falloff_of((cos_spot - light.cos_edge) / light.falloff_width) *
+                          lerp(Batch(1.0f), max(cos_spot, Batch(0.0f)), light.is_cosine);
+    Vec3b reflected = surface.diffuse * s.diffuse;
+    if (any(surface.has_glossy())) reflected += surface.fresnel.at(cos_oh) * s.glossy;
+    Batch distance = distance_to_sphere(to_center, light.radius_m, wi);
+    if (any(is_disk)) distance = select(is_disk, distance_to_facing_disk(to_center, wi), distance);
+    return {
+        .sample = {.radiance = reflected * light.radiance * select(faces, falloff, Batch(0.0f)),
+                   .wi = wi,
+                   .reach_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance * Batch(shadow_reach))},
+        .valid = s.valid,
+        .pdf_omega = Batch(0.0f),
+        .needs_bsdf = faces && !faces};
+}
+
+LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
+                               const Vec2b& u) {
+    const SurfacePointOf<Batch>& point = vertices.point;
+    const SurfaceOf<Batch>& surface = vertices.surface;
+    const auto light = pack_lights<AreaLightOf>(lights, area_light);
+    const Batch zero(0.0f);
+    const BatchMask is_triangle = light.is_triangle > zero;
+    AreaView<Batch> view{.center = point.frame.to_local(light.center - point.position),
+                         .half_u = point.frame.to_local(light.half_u),
+                         .half_v = point.frame.to_local(light.half_v),
+                         .normal = point.frame.to_local(light.normal),
+                         .parallelogram_m2 = light.parallelogram_m2,
+                         .ellipse = light.is_ellipse > zero,
+                         .triangle = is_triangle};
+    const Batch facing = dot(view.center, view.normal);
+    view.normal = select(is_triangle && facing > zero, -view.normal, view.normal);  // a triangle has two sides
+    const BatchMask reached = facing < zero || (is_triangle && facing > zero);
+    LaneSamples lit{.sample = {Vec3b(zero), point.frame.z, zero},
+                    .valid = zero == zero,
+                    .pdf_omega = Batch(1.0f),
+                    .needs_bsdf = needs_bsdf_samples(view, surface.wo_local)};
+    if (!any(reached)) return lit;
+    const JointSurface<Batch> joint = joint_surface(surface);
+    const AreaSampler<Batch> sampler(joint, view);
+    const Vec2b place = sampler.sample(u);
+    const auto seen = sampler.see(place.x, place.y);
+    lit.sample.wi = point.frame.to_world(seen.wi);
+    lit.sample.reach_m = seen.distance_m * Batch(shadow_reach);
+    const Batch cosine = max(-dot(seen.wi, view.normal), tiny<Batch>);
+    lit.sample.reach_m -= select(is_triangle, (light.surface_error_m + point.error_m) / cosine, zero);
+    const BatchMask faces = reached && seen.wi.z > zero && dot(lit.sample.wi, point.normal_geometric) > zero;
+    const Batch pdf_xy = max(sampler.pdf(place), tiny<Batch>);
+    lit.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
+    const Vec3b above(seen.wi.x, seen.wi.y, max(seen.wi.z, Batch(1e-6f)));
+    lit.sample.radiance = eval(surface, above) * light.radiance * select(faces, seen.omega_per_xy / pdf_xy, zero);
+    return lit;
+}
+
+}  // namespace pivot

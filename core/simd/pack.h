@@ -1,0 +1,93 @@
+// Structs in a batch's lanes: of a template S over a number type, S<Batch> holds in each lane what S<float> holds. All
+// members are numbers, or words of as many bits.
+#pragma once
+
+#include "core/simd/batch.h"
+
+namespace pivot {
+namespace detail {
+
+#ifdef __AVX2__
+/// Four numbers of a lane, then four of the lane four places on.
+inline Batch load_row(const float* low, const float* high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+inline void store_row(Batch row, float* low, float* high) {
+    _mm_storeu_ps(low, _mm256_castps256_ps128(row));
+    _mm_storeu_ps(high, _mm256_extractf128_ps(row, 1));
+}
+inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
+    const Batch ab_low = _mm256_unpacklo_ps(r[0], r[1]), ab_high = _mm256_unpackhi_ps(r[0], r[1]);
+    const Batch cd_low = _mm256_unpacklo_ps(r[2], r[3]), cd_high = _mm256_unpackhi_ps(r[2], r[3]);
+    return {_mm256_shuffle_ps(ab_low, cd_low, 0x44), _mm256_shuffle_ps(ab_low, cd_low, 0xee),
+            _mm256_shuffle_ps(ab_high, cd_high, 0x44), _mm256_shuffle_ps(ab_high, cd_high, 0xee)};
+}
+#else
+inline Batch load_row(const float* low, const float*) { return _mm_loadu_ps(low); }
+inline void store_row(Batch row, float* low, float*) { _mm_storeu_ps(low, row); }
+inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
+    const Batch ab_low = _mm_unpacklo_ps(r[0], r[1]), ab_high = _mm_unpackhi_ps(r[0], r[1]);
+    const Batch cd_low = _mm_unpacklo_ps(r[2], r[3]), cd_high = _mm_unpackhi_ps(r[2], r[3]);
+    return {_mm_shuffle_ps(ab_low, cd_low, 0x44), _mm_shuffle_ps(ab_low, cd_low, 0xee),
+            _mm_shuffle_ps(ab_high, cd_high, 0x44), _mm_shuffle_ps(ab_high, cd_high, 0xee)};
+}
+#endif
+static_assert(batch_size % 4 == 0);
+
+/// Calls visit(first) with where each group of four numbers starts; the last overlaps the one before.
+template <class One, class Visit>
+void for_each_four(const Visit& visit) {
+    static_assert(std::is_trivially_copyable_v<One> && sizeof(One) % sizeof(float) == 0);
+    constexpr std::size_t numbers = sizeof(One) / sizeof(float);
+    static_assert(numbers >= 4);
+    for (std::size_t first = 0; first + 4 <= numbers; first += 4) visit(first);
+    if constexpr (numbers % 4 != 0) visit(numbers - 4);
+}
+
+}  // namespace detail
+
+template <template <class> class S>
+S<Batch> pack(const std::array<const S<float>*, batch_size>& lanes) {
+    static_assert(sizeof(S<Batch>) == batch_size * sizeof(S<float>));
+    S<Batch> packed;
+    auto* numbers = reinterpret_cast<std::byte*>(&packed);
+    detail::for_each_four<S<float>>([&](std::size_t first) {
+        const auto from = [&](std::size_t lane) { return reinterpret_cast<const float*>(lanes[lane]) + first; };
+        std::array<Batch, 4> rows;
+        for (std::size_t i = 0; i < 4; ++i) rows[i] = detail::load_row(from(i), from(i + batch_size - 4));
+        rows = detail::transpose(rows);
+        std::memcpy(numbers + first * sizeof(Batch), rows.data(), sizeof(rows));
+    });
+    return packed;
+}
+
+template <template <class> class S>
+std::array<S<float>, batch_size> unpack(const S<Batch>& packed) {
+    static_assert(sizeof(S<Batch>) == batch_size * sizeof(S<float>));
+    std::array<S<float>, batch_size> lanes;
+    const auto* numbers = reinterpret_cast<const std::byte*>(&packed);
+    detail::for_each_four<S<float>>([&](std::size_t first) {
+        const auto to = [&](std::size_t lane) { return reinterpret_cast<float*>(&lanes[lane]) + first; };
+        std::array<Batch, 4> rows;
+        std::memcpy(rows.data(), numbers + first * sizeof(Batch), sizeof(rows));
+        rows = detail::transpose(rows);
+        for (std::size_t i = 0; i < 4; ++i) detail::store_row(rows[i], to(i), to(i + batch_size - 4));
+    });
+    return lanes;
+}
+
+/// The same struct in every lane.
+template <template <class> class S>
+S<Batch> broadcast(const S<float>& same) {
+    static_assert(sizeof(S<Batch>) == batch_size * sizeof(S<float>));
+    S<Batch> lanes;
+    for (std::size_t at = 0; at < sizeof(same); at += sizeof(float)) {
+        float number;
+        std::memcpy(&number, reinterpret_cast<const std::byte*>(&same) + at, sizeof(float));
+        const Batch batch(number);
+        std::memcpy(reinterpret_cast<std::byte*>(&lanes) + at * batch_size, &batch, sizeof(Batch));
+    }
+    return lanes;
+}
+
+}  // namespace pivot
