@@ -41,6 +41,22 @@ Mask<T> needs_bsdf_samples(const AreaView<T>& light, const Vec3<T>& wo_local) {
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
 
+/// A place on the light as the lit point sees it.
+template <class T>
+struct SeenPlace {
+    Vec3<T> wi;
+    T distance_m;
+    T omega_per_xy;  ///< solid angle by (x, y)
+};
+template <class T>
+SeenPlace<T> see(const AreaView<T>& light, const Vec2<T>& place) {
+    const Vec3<T> d = light.center + place.x * light.half_u + place.y * light.half_v;
+    const T distance2 = dot(d, d), distance = sqrt(distance2);
+    const T inverse = T(1) / max(distance, tiny<T>);
+    const Vec3<T> wi = d * inverse;
+    return {wi, distance, max(-dot(wi, light.normal), T(0)) * inverse * inverse * light.parallelogram_m2};
+}
+
 namespace detail {
 
 inline constexpr std::size_t area_columns = 3, area_rows = 3;
@@ -238,7 +254,7 @@ class AreaSampler {
             diffuse_.y_center = diffuse_.shear = T(0);
             diffuse_.y_scale = T(1e3f);
             diffuse_.fill(light, [&](T x, T y, T dx, T dy) {
-                const Seen seen = see(x, y);
+                const SeenPlace<T> seen = see(light, Vec2<T>(x, y));
                 return cosine_of_cell(seen, dx, dy) * seen.omega_per_xy;
             });
             diffuse = surface.diffuse * diffuse_.integral * T(1.0f / pi<float>);
@@ -247,7 +263,7 @@ class AreaSampler {
             glossy_ = detail::fit_grid(light, surface.wo_local, surface.alpha);
             const T alpha2 = surface.alpha * surface.alpha;
             glossy_.fill(light, [&](T x, T y, T dx, T dy) {
-                const Seen seen = see(x, y);
+                const SeenPlace<T> seen = see(light, Vec2<T>(x, y));
                 const Vec3<T> h = surface.wo_local + seen.wi;
                 const T h2 = dot(h, h), slope = h.x * h.x + h.y * h.y + alpha2 * h.z * h.z;
                 const T cos_i = cosine_of_cell(seen, dx, dy);
@@ -262,6 +278,8 @@ class AreaSampler {
         const T both = max(min(share, T(1.0f - min_lobe_probability)), T(min_lobe_probability));
         glossy_probability_ = select(has_glossy, select(has_diffuse, both, T(1)), T(0));
     }
+
+    const AreaView<T>& light() const { return light_; }
 
     /// (x, y) of a place on the light. u.x also chooses the lobe.
     Vec2<T> sample(const Vec2<T>& u) const {
@@ -280,23 +298,9 @@ class AreaSampler {
         return uses_glossy_ ? lerp(diffuse, glossy_.pdf(light_, at), glossy_probability_) : diffuse;
     }
 
-    /// A place as the lit point sees it.
-    struct Seen {
-        Vec3<T> wi;
-        T distance_m;
-        T omega_per_xy;  ///< solid angle by (x, y)
-    };
-    Seen see(T x, T y) const {
-        const Vec3<T> d = light_.center + x * light_.half_u + y * light_.half_v;
-        const T distance2 = dot(d, d), distance = sqrt(distance2);
-        const T inverse = T(1) / max(distance, tiny<T>);
-        const Vec3<T> wi = d * inverse;
-        return {wi, distance, max(-dot(wi, light_.normal), T(0)) * inverse * inverse * light_.parallelogram_m2};
-    }
-
    private:
     /// At its centre, or of what of a cell is above the horizon that its centre is below.
-    T cosine_of_cell(const Seen& seen, T dx, T dy) const {
+    T cosine_of_cell(const SeenPlace<T>& seen, T dx, T dy) const {
         const T rise = T(0.5) * (dx * abs(light_.half_u.z) + dy * abs(light_.half_v.z)) / max(seen.distance_m, tiny<T>);
         return max(max(seen.wi.z, T(0.25) * (seen.wi.z + rise)), T(0));
     }

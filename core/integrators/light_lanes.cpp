@@ -135,16 +135,22 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
                     .pdf_omega = Batch(1.0f),
                     .needs_bsdf = needs_bsdf_samples(view, surface.wo_local)};
     if (!any(reached)) return lit;
-    const JointSurface<Batch> joint = joint_surface(surface);
-    const AreaSampler<Batch> sampler(joint, view);
-    const Vec2b place = sampler.sample(u);
-    const auto seen = sampler.see(place.x, place.y);
+    // A triangle of many is small, or shares with BSDF samples what it is too large for.
+    const Batch along = sqrt(u.x);
+    Vec2b place(Batch(2.0f) * along - Batch(1.0f), (Batch(2.0f) * u.y - Batch(1.0f)) * along);
+    Batch pdf_xy(0.5f);
+    if (any(!is_triangle)) {
+        const AreaSampler<Batch> sampler(joint_surface(surface), view);
+        const Vec2b joint = sampler.sample(u);
+        place = {select(is_triangle, place.x, joint.x), select(is_triangle, place.y, joint.y)};
+        pdf_xy = select(is_triangle, pdf_xy, max(sampler.pdf(joint), tiny<Batch>));
+    }
+    const auto seen = see(view, place);
     lit.sample.wi = point.frame.to_world(seen.wi);
     lit.sample.reach_m = seen.distance_m * Batch(shadow_reach);
     const Batch cosine = max(-dot(seen.wi, view.normal), tiny<Batch>);
     lit.sample.reach_m -= select(is_triangle, (light.surface_error_m + point.error_m) / cosine, zero);
     const BatchMask faces = reached && seen.wi.z > zero && dot(lit.sample.wi, point.normal_geometric) > zero;
-    const Batch pdf_xy = max(sampler.pdf(place), tiny<Batch>);
     lit.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
     const Vec3b above(seen.wi.x, seen.wi.y, max(seen.wi.z, Batch(1e-6f)));
     lit.sample.radiance = eval(surface, above) * light.radiance * select(faces, seen.omega_per_xy / pdf_xy, zero);

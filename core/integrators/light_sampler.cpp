@@ -17,8 +17,9 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
       shares_with_bsdf_(strategy != LightSampling::light) {
     if (strategy == LightSampling::bsdf) return;
     diffuse_technique_ = glossy_technique_ = Technique::uniform;
-    if (!cap_ && strategy == LightSampling::joint) {
-        const auto& area = std::get<AreaLight>(light);
+    const auto* placed = std::get_if<AreaLight>(&light);
+    if (placed && !placed->is_two_sided() && strategy == LightSampling::joint) {
+        const AreaLight& area = *placed;
         const AreaView<float> view = view_from(area, point);
         if (dot(view.center, view.normal) < 0.0f)
             area_.emplace(joint_surface(surface), view);
@@ -105,7 +106,7 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
     if (area_) {
         const Vec2f at = area_->sample(u);
-        const auto seen = area_->see(at.x, at.y);
+        const SeenPlace<float> seen = see(area_->light(), at);
         if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
         return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, std::get<AreaLight>(light_).radiance,
                           area_->pdf(at) / seen.omega_per_xy};
@@ -124,7 +125,7 @@ float LightSampler::pdf_omega(const LightPoint& place) const {
     if (area_) {
         const auto& light = std::get<AreaLight>(light_);
         const Vec2f at = area_coordinates(light, point_.position + place.distance_m * place.wi);
-        return area_->pdf(at) / area_->see(at.x, at.y).omega_per_xy;
+        return area_->pdf(at) / see(area_->light(), at).omega_per_xy;
     }
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);

@@ -6,11 +6,11 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace pivot {
 namespace {
@@ -23,6 +23,15 @@ struct Release {
 
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+constexpr std::uint32_t still_id = 0;
+/// Instances of a mesh are traced as so many meshes if they come to no more than this: some 50 MB.
+constexpr std::size_t max_copied_triangles = 1u << 19;
+
+/// The instance that a hit's ids name; no_instance where nothing was hit.
+std::uint32_t instance_of(std::uint32_t world_id, std::uint32_t geometry_id) {
+    return world_id == still_id || world_id == no_instance ? geometry_id : world_id - 1;
+}
 
 /// Calls one of Embree's rtcIntersect* and rtcOccluded*; version 3 wants a context before the rays.
 template <class Call, class Rays, class... Valid>
@@ -83,7 +92,10 @@ void intersect_packets(Call call, RTCScene scene, std::span<const Ray> rays, std
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i].reset();
             if (r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-            hits[first + i] = RayHit{r.ray.tfar[i], r.hit.instID[0][i], r.hit.primID[i], {r.hit.u[i], r.hit.v[i]}};
+            hits[first + i] = RayHit{r.ray.tfar[i],
+                                     instance_of(r.hit.instID[0][i], r.hit.geomID[i]),
+                                     r.hit.primID[i],
+                                     {r.hit.u[i], r.hit.v[i]}};
         }
     }
 }
@@ -130,21 +142,34 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::u
     return any;
 }
 
+void set_transform(RTCGeometry geometry, const Transform& transform) {
+    const Mat3<float>& m = transform.linear;
+    const Vec3f& t = transform.translation;
+    const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z, t.x, t.y, t.z};
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+}
+
 }  // namespace
 
 struct RayTracer::Implementation {
-    Owned<RTCDevice> device;
-    Owned<RTCScene> world;
-    struct BuiltMesh {
-        const Mesh* mesh;
-        Owned<RTCScene> scene;
+    struct Placed {
+        std::uint32_t mesh;
+        Transform world_from_object;
+        std::uint32_t visibility;
+        bool will_move;
     };
-    std::unordered_map<std::uint32_t, BuiltMesh> meshes;
-    /// World-space vertices of the instances that are scaled flat, by instance id.
-    std::unordered_map<std::uint32_t, std::vector<Vec3f>> flattened;
-    std::vector<std::uint32_t> unbuilt;          ///< mesh ids; commit() builds their BVHs: adding a mesh is quick
-    std::unordered_set<std::uint32_t> attached;  ///< instance ids; asking Embree for an unused one aborts
-    bool changed = true;
+    enum class Side { still, moving };
+
+    Owned<RTCDevice> device;
+    Owned<RTCScene> world;  ///< still_id is the still scene; id + 1 an instance that is traced in its own space
+    Owned<RTCScene> still;  ///< instances in world space: one BVH, and no transforms on the way
+    std::unordered_map<std::uint32_t, const Mesh*> meshes;
+    std::unordered_map<std::uint32_t, Owned<RTCScene>> mesh_scenes;  ///< of the meshes that instances need
+    std::unordered_map<std::uint32_t, Placed> placed;
+    std::unordered_map<std::uint32_t, Side> attached;  ///< asking Embree for an unused id aborts
+    std::unordered_map<std::uint32_t, std::vector<Vec3f>> still_positions;
+    std::vector<std::uint32_t> waiting;  ///< placed, for commit() to attach: adding is quick
+    bool will_move = false, has_still = false, still_changed = true, changed = true;
     std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
 
     void check() const {
@@ -154,24 +179,90 @@ struct RayTracer::Implementation {
         throw std::runtime_error("Embree failed with error " + std::to_string(error));
     }
 
-    Owned<RTCScene> make_scene(const Mesh& mesh, const std::vector<Vec3f>& positions) const {
+    Owned<RTCScene> make_scene() const {
         Owned<RTCScene> scene(rtcNewScene(device.get()));
+        // Exact at shared edges: no light leaks between triangles.
         rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-        const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+        return scene;
+    }
+
+    Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const {
+        Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
                                    sizeof(Vec3f), mesh.vertex_count());
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                    sizeof(Triangle), mesh.triangles.size());
-        rtcSetGeometryMask(geometry.get(), visible_to_all);
+        return geometry;
+    }
+
+    RTCScene scene_of_mesh(std::uint32_t mesh_id) {
+        Owned<RTCScene>& scene = mesh_scenes[mesh_id];
+        if (!scene) {
+            const Mesh& mesh = *meshes.at(mesh_id);
+            const auto geometry = make_triangles(mesh, mesh.positions);
+            rtcSetGeometryMask(geometry.get(), visible_to_all);
+            rtcCommitGeometry(geometry.get());
+            scene = make_scene();
+            rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
+            rtcCommitScene(scene.get());
+        }
+        return scene.get();
+    }
+
+    void attach_still(std::uint32_t id, const Placed& instance) {
+        const Mesh& mesh = *meshes.at(instance.mesh);
+        std::vector<Vec3f>& positions = still_positions[id];
+        positions.reserve(mesh.positions.size());
+        for (const Vec3f& p : mesh.positions) positions.push_back(instance.world_from_object.point(p));
+        const auto geometry = make_triangles(mesh, positions);
+        rtcSetGeometryMask(geometry.get(), instance.visibility);
         rtcCommitGeometry(geometry.get());
-        rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
-        check();
-        return scene;
+        rtcAttachGeometryByID(still.get(), geometry.get(), id);
+        still_changed = true;
+    }
+
+    void attach_moving(std::uint32_t id, const Placed& instance) {
+        const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(geometry.get(), scene_of_mesh(instance.mesh));
+        set_transform(geometry.get(), instance.world_from_object);
+        rtcSetGeometryMask(geometry.get(), instance.visibility);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(world.get(), geometry.get(), id + 1);
+    }
+
+    void detach(std::uint32_t id) {
+        const auto found = attached.find(id);
+        if (found == attached.end()) return;
+        const bool is_still = found->second == Side::still;
+        rtcDetachGeometry(is_still ? still.get() : world.get(), is_still ? id : id + 1);
+        still_changed = still_changed || is_still;
+        still_positions.erase(id);
+        attached.erase(found);
+    }
+
+    void attach_waiting() {
+        std::unordered_map<std::uint32_t, std::size_t> uses;
+        for (const auto& [id, instance] : placed) ++uses[instance.mesh];
+        for (const std::uint32_t id : waiting) {
+            const auto found = placed.find(id);
+            if (found == placed.end() || attached.contains(id)) continue;
+            const Placed& instance = found->second;
+            const std::size_t copies = uses[instance.mesh];
+            const bool is_small = copies * meshes.at(instance.mesh)->triangles.size() <= max_copied_triangles;
+            // What is scaled flat has no space of its own to be traced in.
+            const bool is_still =
+                !instance.world_from_object.is_invertible() || (!instance.will_move && (copies == 1 || is_small));
+            if (is_still) attach_still(id, instance);
+            if (!is_still) attach_moving(id, instance);
+            attached[id] = is_still ? Side::still : Side::moving;
+        }
+        waiting.clear();
     }
 };
 
-RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
+RayTracer::RayTracer(bool will_move) : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
+    self.will_move = will_move;
     self.device.reset(rtcNewDevice(nullptr));
     if (!self.device)
         throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
@@ -181,56 +272,29 @@ RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
     } else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) {
         self.packet_width = 8;
     }
-    self.world.reset(rtcNewScene(self.device.get()));
-    // Exact at shared edges: no light leaks between triangles.
-    rtcSetSceneFlags(self.world.get(), RTC_SCENE_FLAG_ROBUST);
+    self.world = self.make_scene();
+    self.still = self.make_scene();
     self.check();
 }
 
 RayTracer::~RayTracer() = default;
 
-void RayTracer::set_mesh(std::uint32_t mesh_id, const Mesh& mesh) {
-    auto& self = *implementation_;
-    self.meshes[mesh_id] = {&mesh, self.make_scene(mesh, mesh.positions)};
-    self.unbuilt.push_back(mesh_id);
-    self.changed = true;
-}
+void RayTracer::set_mesh(std::uint32_t mesh_id, const Mesh& mesh) { implementation_->meshes[mesh_id] = &mesh; }
 
 void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                              std::uint32_t visibility) {
     auto& self = *implementation_;
+    const bool was_placed = self.placed.contains(instance_id);
     remove_instance(instance_id);
-    const auto& built = self.meshes.at(mesh_id);
-    const Owned<RTCGeometry> geometry(rtcNewGeometry(self.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-    Transform transform = world_from_object;
-    if (transform.is_invertible()) {
-        rtcSetGeometryInstancedScene(geometry.get(), built.scene.get());
-    } else {
-        // Embree traces an instance in its own space, which an object scaled flat does not have.
-        std::vector<Vec3f>& positions = self.flattened[instance_id];
-        for (const Vec3f& p : built.mesh->positions) positions.push_back(transform.point(p));
-        transform = {};
-        const auto flat = self.make_scene(*built.mesh, positions);
-        rtcCommitScene(flat.get());
-        rtcSetGeometryInstancedScene(geometry.get(), flat.get());
-    }
-    const Mat3<float>& m = transform.linear;
-    const Vec3f& t = transform.translation;
-    const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z, t.x, t.y, t.z};
-    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    rtcSetGeometryMask(geometry.get(), visibility);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(self.world.get(), geometry.get(), instance_id);
-    self.attached.insert(instance_id);
-    self.check();
+    self.placed[instance_id] = {mesh_id, world_from_object, visibility, self.will_move || was_placed};
+    self.waiting.push_back(instance_id);
     self.changed = true;
 }
 
 void RayTracer::remove_instance(std::uint32_t instance_id) {
     auto& self = *implementation_;
-    if (self.attached.erase(instance_id) == 0) return;
-    rtcDetachGeometry(self.world.get(), instance_id);
-    self.flattened.erase(instance_id);
+    self.placed.erase(instance_id);
+    self.detach(instance_id);
     self.check();
     self.changed = true;
 }
@@ -238,8 +302,22 @@ void RayTracer::remove_instance(std::uint32_t instance_id) {
 void RayTracer::commit() {
     auto& self = *implementation_;
     if (!self.changed) return;
-    for (const std::uint32_t mesh_id : self.unbuilt) rtcCommitScene(self.meshes.at(mesh_id).scene.get());
-    self.unbuilt.clear();
+    self.attach_waiting();
+    if (self.still_changed) {
+        rtcCommitScene(self.still.get());
+        if (self.has_still) rtcDetachGeometry(self.world.get(), still_id);
+        self.has_still = std::any_of(self.attached.begin(), self.attached.end(),
+                                     [](const auto& one) { return one.second == Implementation::Side::still; });
+        if (self.has_still) {
+            const Owned<RTCGeometry> geometry(rtcNewGeometry(self.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+            rtcSetGeometryInstancedScene(geometry.get(), self.still.get());
+            set_transform(geometry.get(), {});
+            rtcSetGeometryMask(geometry.get(), visible_to_all);
+            rtcCommitGeometry(geometry.get());
+            rtcAttachGeometryByID(self.world.get(), geometry.get(), still_id);
+        }
+        self.still_changed = false;
+    }
     rtcCommitScene(self.world.get());
     self.check();
     self.changed = false;
@@ -252,7 +330,7 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     trace(rtcIntersect1, implementation_->world.get(), r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return RayHit{r.ray.tfar, r.hit.instID[0], r.hit.primID, {r.hit.u, r.hit.v}};
+    return RayHit{r.ray.tfar, instance_of(r.hit.instID[0], r.hit.geomID), r.hit.primID, {r.hit.u, r.hit.v}};
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
@@ -287,8 +365,10 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
         r.hit.instID[0][i] = no_instance;
     }
     if (any) trace(intersect_batch, implementation_->world.get(), r, valid);
+    std::array<std::uint32_t, batch_size> instances;
+    for (std::size_t i = 0; i < batch_size; ++i) instances[i] = instance_of(r.hit.instID[0][i], r.hit.geomID[i]);
     return {.distance_m = Batch::load_unaligned(r.ray.tfar),
-            .instance = WordBatch::load_unaligned(r.hit.instID[0]),
+            .instance = WordBatch::load_unaligned(instances.data()),
             .triangle = WordBatch::load_unaligned(r.hit.primID),
             .barycentric = {Batch::load_unaligned(r.hit.u), Batch::load_unaligned(r.hit.v)}};
 }
