@@ -57,16 +57,22 @@ class Bar:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
+def without_fix(error: list[str]) -> str:
+    return "".join(error).partition(". Fix: ")[0].rstrip(".\n")
+
+
 class Messages:
-    """What the person reads beside the bar. An error may have many lines, and is printed once: Blender prints an
-    operator's, and the script that called it once more."""
+    """What the person reads beside the bar. An error may have many lines, and is printed once, with its fix: Blender
+    prints an operator's, before or after the script that called it does, which adds the fix."""
 
     def __init__(self) -> None:
         self.error: list[str] = []  # the lines so far of the error being read
-        self.told: set[tuple[str, ...]] = set()
+        self.told: set[str] = set()  # each without its fix
 
     def add(self, line: str) -> None:
-        if line.startswith("Error") or (self.error and line.startswith(("Warning", "Wrote "))):
+        if self.error and line.startswith(f"{without_fix(self.error)}. Fix: "):
+            self.error = []
+        elif line.startswith("Error") or (self.error and line.startswith(("Warning", "Wrote "))):
             self.end_error()
         if line.startswith("Error") or self.error:
             self.error.append(line)
@@ -75,9 +81,9 @@ class Messages:
 
     def end_error(self) -> None:
         """Print the error being read, which has no more lines."""
-        if tuple(self.error) not in self.told:
+        if without_fix(self.error) not in self.told:
             print(*self.error, sep="", end="", file=sys.stderr, flush=True)
-        self.told.add(tuple(self.error))
+        self.told.add(without_fix(self.error))
         self.error = []
 
 

@@ -71,7 +71,8 @@ void register_render(py::module_& module) {
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f);
     py::class_<Session>(
         module, "Session",
-        "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
+        "A render by native threads. Sessions may share a scene, which must not be edited until all have ended. "
+        "bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.")
         .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
         .def("start", &Session::start, "Starts the threads and returns at once.")
         .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),
@@ -82,8 +83,7 @@ void register_render(py::module_& module) {
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
         .def_property_readonly_static(
-            "bytes_per_pixel", [](const py::object&) { return sizeof(Pixel) + sizeof(Pilot) + sizeof(std::uint32_t); },
-            "What a session allocates for each pixel of its window, the counts of adaptive sampling included.")
+            "bytes_per_pixel", [](const py::object&) { return sizeof(Pixel) + sizeof(Pilot) + sizeof(std::uint32_t); })
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def("read", &read, py::arg("pass_name"),

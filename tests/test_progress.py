@@ -52,6 +52,15 @@ def test_progress_keeps_errors_whole(tmp_path: Path) -> None:
     assert ran.stderr.splitlines() == shown
 
 
+def test_an_error_is_shown_once_with_its_fix(tmp_path: Path) -> None:
+    """Blender 3.4 prints its own words before those of the script that knows the fix, and Blender 4.3 after them."""
+    bare, helped = "Error: no camera", "Error: no camera. Fix: add one"
+    for lines in ([bare, helped], [helped, bare], [bare, helped, bare]):
+        assert progress(tmp_path, lines).stderr.splitlines() == [helped]
+    others = [bare, "Error: no camera at hand. Fix: add one"]
+    assert progress(tmp_path, others).stderr.splitlines() == others
+
+
 def test_progress_takes_any_bytes(tmp_path: Path) -> None:
     command = [sys.executable, ROOT / ".run/progress.py", "Working", tmp_path / "log"]
     line = b"Error: no such file: caf\xe9.blend\n"

@@ -24,7 +24,8 @@ _REFERENCE_SEED = 1000
 
 def scene_key(blend: Path, width_px: int) -> str:
     """Names the scene, its size in the chart, and the builds that render it."""
-    native = sorted(Path(core.load().__file__).parent.glob("*.so"))
+    renderer = core.load()
+    native = sorted(Path(renderer.__file__).parent.glob(f"_core_{renderer.arch}.*"))
     digest = hashlib.sha256(f"{width_px} {bpy.app.version_string} {bpy.app.build_hash!r}".encode())
     for file in (blend, *native):
         digest.update(file.read_bytes())

@@ -319,7 +319,7 @@ class RenderSettings:
 
 class Session:
     """
-    A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
+    A render by native threads. Sessions may share a scene, which must not be edited until all have ended. bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.
     """
 
     bytes_per_pixel: typing.ClassVar[int] = 112

@@ -46,6 +46,10 @@ def test_the_suggestion_is_the_cheapest_and_is_applied(case: Any) -> None:
     assert not case["suggestion_out_of_reach"]
 
 
+def test_pictures_are_kept_until_the_scene_or_the_core_that_renders_changes(case: Any) -> None:
+    assert case["keyed"] == ["scene.blend", "_core_v3.so"]
+
+
 def test_a_failure_names_its_cause(case: Any) -> None:
     assert "the chart failed" in case["failure"]
     assert "no camera" in case["failure"].lower()

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a B
 
 def in_a_window(script: str, folder: Path) -> Any:
     """What inside/<script>.py, which quits its Blender, wrote to folder/result.json; its output is in folder/output."""
-    screen = ["-a", "-s", "-screen 0 1280x800x24"]
+    screen = ["-a", "-s", f"-screen 0 1280x800x24 -fbdir {folder}"]
     blender = ["--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
     command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder)]
     done = subprocess.run(command, env=environment(folder), capture_output=True, text=True, timeout=150, check=False)

@@ -72,8 +72,8 @@ SCENE = {
         simplify_gpencil_modifier simplify_gpencil_shader_fx simplify_gpencil_tint line_thickness_mode line_thickness
         bake motion_blur_position use_simplify_normals compositor_device compositor_precision ppm_factor ppm_base
         compositor_denoise_device compositor_denoise_preview_quality compositor_denoise_final_quality
-        anisotropic_filter@5.2 save_output@5.2 use_texture_cache@5.2 use_auto_generate_texture_cache@5.2
-        use_compositor_frames_cache@5.3
+        use_new_cpu_compositor@4.3 anisotropic_filter@5.2 save_output@5.2 use_texture_cache@5.2
+        use_auto_generate_texture_cache@5.2 use_compositor_frames_cache@5.3
         """,
     ),
     "CyclesRenderSettings": Table(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -38,6 +39,7 @@ def main(folder: Path) -> Any:
         "suggestion_out_of_reach": chart.suggestion(bpy.context.scene) is not None,
         "failure": _failure(),
         "cancelled": _cancelled(),
+        "keyed": _keyed(folder),
     }  # fmt: skip
 
 
@@ -74,3 +76,23 @@ def _cancelled() -> bool:
     running = not job.done()
     job.cancel()
     return running and job.done()
+
+
+def _keyed(folder: Path) -> list[str]:
+    """The files, of a scene and of a build of both levels, that make other pictures when they change."""
+    files = [folder / name for name in ("scene.blend", "_core_v2.so", "_core_v3.so", "_cpu.so", "_formulas_v3.so")]
+    for file in files:
+        file.write_text("as built")
+    core = importlib.import_module("pivot.core")
+    load, core.load = core.load, lambda: SimpleNamespace(__file__=str(folder / "__init__.py"), arch="v3")
+
+    def key() -> str:
+        return importlib.import_module("pivot.chart.measure").scene_key(files[0], 64)
+
+    first, keyed = key(), []
+    for file in files:
+        file.write_text("changed")
+        keyed += [file.name] if key() != first else []
+        file.write_text("as built")
+    core.load = load
+    return keyed

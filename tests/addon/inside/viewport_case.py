@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import struct
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -30,17 +31,16 @@ def view() -> tuple[Any, Any]:
 
 
 def middle() -> list[float]:
-    """RGB of the middle of the 3D view, as shown."""
+    """RGB of the middle of the 3D view, as the screen shows it: Blender 4.3's own screenshots are black under Xvfb."""
     window, area = view()
     region = next(region for region in area.regions if region.type == "WINDOW")
-    path = str(FOLDER / "screen.png")
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        bpy.ops.screen.screenshot(filepath=path)
-    image = bpy.data.images.load(path)
-    x, y = region.x + region.width // 2, region.y + region.height // 2
-    pixel = list(image.pixels[4 * (y * image.size[0] + x) :][:3])
-    bpy.data.images.remove(image)
-    return pixel
+    data = (FOLDER / "Xvfb_screen0").read_bytes()
+    header = struct.unpack(">25I", data[:100])  # XWD's
+    header_size, height, row_size, color_count = (header[i] for i in (0, 5, 12, 19))
+    x = window.x + region.x + region.width // 2
+    y = window.y + region.y + region.height // 2  # from below
+    pixel = header_size + 12 * color_count + (height - 1 - y) * row_size + 4 * x
+    return [value / 255 for value in data[pixel : pixel + 3][::-1]]
 
 
 def lamp(name: str, colour: tuple[float, float, float, float], z: float) -> Any:
