@@ -101,9 +101,10 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     return pack<LightSampleOf>(lanes);
 }
 
-/// Some of the `count` lights from `first` on, which a tree holds: all, or as many as there are picks, u choosing
-/// among them.
-void pick_some(const LightTree& tree, std::size_t first, std::size_t count, const VertexBatch& vertices, const Batch& u,
+/// Some of the `count` lights from `first` on, which a tree holds: all, or as many as there are picks, u()
+/// choosing among them.
+template <class U>
+void pick_some(const LightTree& tree, std::size_t first, std::size_t count, const VertexBatch& vertices, const U& u,
                std::span<LightPicks> picks) {
     if (picks.empty()) return;
     if (picks.size() == count) {
@@ -114,7 +115,7 @@ void pick_some(const LightTree& tree, std::size_t first, std::size_t count, cons
         return;
     }
     std::array<LightChoices, max_light_samples> choices;
-    choose_lights(tree, vertices, u, std::span(choices).first(picks.size()));
+    choose_lights(tree, vertices, u(), std::span(choices).first(picks.size()));
     for (std::size_t k = 0; k < picks.size(); ++k) {
         for (std::size_t i = 0; i < vertices.count(); ++i) {
             picks[k].light[i] = first + choices[k].light[i];
@@ -130,10 +131,13 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
     const std::size_t rounds = plan.lamp_samples + plan.triangle_samples;
     if (rounds == 0) return;
     std::array<LightPicks, max_light_samples> picks;
-    const Vec2b u = vertices.sampler.point(plan.dimensions.light_choice());
-    pick_some(scene.lamp_tree(), 0, scene.lamps().size(), vertices, u.x, std::span(picks).first(plan.lamp_samples));
-    pick_some(scene.triangle_tree(), scene.lamps().size(), scene.triangle_lights().size(), vertices, u.y,
-              std::span(picks).subspan(plan.lamp_samples, plan.triangle_samples));
+    const auto u = [&] { return vertices.sampler.point(plan.dimensions.light_choice()); };
+    pick_some(
+        scene.lamp_tree(), 0, scene.lamps().size(), vertices, [&] { return u().x; },
+        std::span(picks).first(plan.lamp_samples));
+    pick_some(
+        scene.triangle_tree(), scene.lamps().size(), scene.triangle_lights().size(), vertices, [&] { return u().y; },
+        std::span(picks).subspan(plan.lamp_samples, plan.triangle_samples));
     for (std::size_t k = 0; k < rounds; ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         const LightSampleOf<Batch> samples =

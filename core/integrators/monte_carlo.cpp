@@ -111,11 +111,13 @@ PathBatch make_batch(const Work& work, std::span<const Path> paths) {
 
 /// What the passes tell of the first hits, and their own light.
 void see_first_hits(const Work& work, const PathBatch& batch) {
+    const auto lanes_of = [](const Vec3b& v) { return std::array{store(v.x), store(v.y), store(v.z)}; };
+    const auto normal = lanes_of(batch.vertices.point.frame.z), albedo = lanes_of(batch.vertices.surface.diffuse);
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
         sample.radiance = sample.emission = work.scene.materials()[batch.paths[i].material].emission;
-        sample.normal = batch.vertices.lane(i).point.frame.z;
-        sample.albedo = batch.vertices.lane(i).surface.diffuse;
+        sample.normal = {normal[0][i], normal[1][i], normal[2][i]};
+        sample.albedo = {albedo[0][i], albedo[1][i], albedo[2][i]};
     }
 }
 
@@ -213,7 +215,9 @@ void trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce
         const bool is_last = bounce == work.settings.max_bounces;
         wanted[i] = !is_last || work.scene.has_unsampled_light() || shares[i] ? 1.0f : 0.0f;
     }
-    const Scattered scattered = scatter(plan, batch, load(wanted) > Batch(0.0f));
+    const BatchMask is_wanted = load(wanted) > Batch(0.0f);
+    if (!any(is_wanted)) return;
+    const Scattered scattered = scatter(plan, batch, is_wanted);
     if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shares, next);
 }
 

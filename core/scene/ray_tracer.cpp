@@ -169,7 +169,7 @@ struct RayTracer::Implementation {
     std::unordered_map<std::uint32_t, Side> attached;  ///< asking Embree for an unused id aborts
     std::unordered_map<std::uint32_t, std::vector<Vec3f>> still_positions;
     std::vector<std::uint32_t> waiting;  ///< placed, for commit() to attach: adding is quick
-    bool will_move = false, has_still = false, still_changed = true, changed = true;
+    bool will_move = false, has_still = false, has_moving = false, still_changed = true, changed = true;
     std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
 
     void check() const {
@@ -178,6 +178,9 @@ struct RayTracer::Implementation {
         if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
         throw std::runtime_error("Embree failed with error " + std::to_string(error));
     }
+
+    /// What rays are traced in: where nothing moves, the still scene needs no other around it.
+    RTCScene traced() const { return has_moving ? world.get() : still.get(); }
 
     Owned<RTCScene> make_scene() const {
         Owned<RTCScene> scene(rtcNewScene(device.get()));
@@ -303,11 +306,15 @@ void RayTracer::commit() {
     auto& self = *implementation_;
     if (!self.changed) return;
     self.attach_waiting();
+    const auto has = [&](Implementation::Side side) {
+        return std::any_of(self.attached.begin(), self.attached.end(),
+                           [&](const auto& one) { return one.second == side; });
+    };
+    self.has_moving = has(Implementation::Side::moving);
     if (self.still_changed) {
         rtcCommitScene(self.still.get());
         if (self.has_still) rtcDetachGeometry(self.world.get(), still_id);
-        self.has_still = std::any_of(self.attached.begin(), self.attached.end(),
-                                     [](const auto& one) { return one.second == Implementation::Side::still; });
+        self.has_still = has(Implementation::Side::still);
         if (self.has_still) {
             const Owned<RTCGeometry> geometry(rtcNewGeometry(self.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
             rtcSetGeometryInstancedScene(geometry.get(), self.still.get());
@@ -328,31 +335,30 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
     r.ray = to_embree(ray, from);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    trace(rtcIntersect1, implementation_->world.get(), r);
+    trace(rtcIntersect1, implementation_->traced(), r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return RayHit{r.ray.tfar, instance_of(r.hit.instID[0], r.hit.geomID), r.hit.primID, {r.hit.u, r.hit.v}};
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
     RTCRay r = to_embree(ray, visible_to_light);
-    trace(rtcOccluded1, implementation_->world.get(), r);
+    trace(rtcOccluded1, implementation_->traced(), r);
     return r.tfar < 0.0f;
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
     const auto& self = *implementation_;
     if (self.packet_width == 16)
-        return intersect_packets<RTCRay16, RTCRayHit16>(rtcIntersect16, self.world.get(), rays, from, hits);
+        return intersect_packets<RTCRay16, RTCRayHit16>(rtcIntersect16, self.traced(), rays, from, hits);
     if (self.packet_width == 8)
-        return intersect_packets<RTCRay8, RTCRayHit8>(rtcIntersect8, self.world.get(), rays, from, hits);
+        return intersect_packets<RTCRay8, RTCRayHit8>(rtcIntersect8, self.traced(), rays, from, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], from);
 }
 
 void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
     const auto& self = *implementation_;
-    if (self.packet_width == 16)
-        return occluded_packets<RTCRay16>(rtcOccluded16, self.world.get(), rays, occluded_rays);
-    if (self.packet_width == 8) return occluded_packets<RTCRay8>(rtcOccluded8, self.world.get(), rays, occluded_rays);
+    if (self.packet_width == 16) return occluded_packets<RTCRay16>(rtcOccluded16, self.traced(), rays, occluded_rays);
+    if (self.packet_width == 8) return occluded_packets<RTCRay8>(rtcOccluded8, self.traced(), rays, occluded_rays);
     for (std::size_t i = 0; i < rays.size(); ++i) occluded_rays[i] = occluded(rays[i]);
 }
 
@@ -364,7 +370,7 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
         r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         r.hit.instID[0][i] = no_instance;
     }
-    if (any) trace(intersect_batch, implementation_->world.get(), r, valid);
+    if (any) trace(intersect_batch, implementation_->traced(), r, valid);
     std::array<std::uint32_t, batch_size> instances;
     for (std::size_t i = 0; i < batch_size; ++i) instances[i] = instance_of(r.hit.instID[0][i], r.hit.geomID[i]);
     return {.distance_m = Batch::load_unaligned(r.ray.tfar),
@@ -376,7 +382,7 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
 Batch RayTracer::visibility(const RayOf<Batch>& rays) const {
     alignas(64) int valid[batch_size];
     BatchRays r;
-    if (fill_packet(r, valid, rays, visible_to_light)) trace(occluded_batch, implementation_->world.get(), r, valid);
+    if (fill_packet(r, valid, rays, visible_to_light)) trace(occluded_batch, implementation_->traced(), r, valid);
     return select(Batch::load_unaligned(r.tfar) > Batch(0.0f), Batch(1.0f), Batch(0.0f));
 }
 
