@@ -12,9 +12,11 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "tests/scenes/default"
 
 DESCRIBE = """
-import sys, bpy
+import sys, bpy, addon_utils
+addon_utils.enable("pivot")
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
 sys.stdout = open(sys.argv[2], "w")  # where Blender prints nothing
+print(bpy.context.scene.render.engine)
 for thing in sorted(bpy.context.scene.objects, key=lambda o: o.name):
     mesh = thing.type == "MESH" and (len(thing.data.vertices), len(thing.data.polygons), len(thing.data.materials))
     light = thing.type == "LIGHT" and (thing.data.energy, tuple(thing.data.color))
@@ -51,4 +53,5 @@ def test_the_script_rebuilds_the_scene(tmp_path: Path) -> None:
     subprocess.run(command, check=True, capture_output=True)
     built = describe(tmp_path / "new.blend", tmp_path / "description")
     assert len(built) > 20
+    assert built[0] == "PIVOT"
     assert built == describe(SCENE / "default.blend", tmp_path / "description")

@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+import addon_utils
 import bmesh
 import bpy
 from mathutils import Matrix, Vector
@@ -196,7 +197,7 @@ def place_camera() -> None:
 
 
 def set_render(scene: bpy.types.Scene) -> None:
-    """A picture of 960 x 540, and settings under which Cycles computes what Pivot does."""
+    """A picture of 960 x 540 by Pivot, and settings under which Cycles computes what Pivot does."""
     layer = scene.view_layers[0]
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = True
     layer.use_pass_diffuse_color = layer.use_pass_emit = True
@@ -207,6 +208,8 @@ def set_render(scene: bpy.types.Scene) -> None:
     cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = 128, False, False
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = 4
     cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+    addon_utils.enable("pivot")
+    scene.render.engine = "PIVOT"
 
 
 def build(path: Path) -> None:
