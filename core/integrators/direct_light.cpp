@@ -47,8 +47,8 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
     std::array<const Light*, batch_size> lights{};
     LaneFlags is_area{}, left{};
-    for (std::size_t i = 0; i < vertices.count(); ++i) {
-        if (!(picks.expected_samples[i] > 0.0f)) continue;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        if (i >= vertices.count() || !(picks.expected_samples[i] > 0.0f)) continue;
         lights[i] = &scene.lights()[picks.light[i]];
         is_area[i] = std::holds_alternative<AreaLight>(*lights[i]);
         left[i] = 1;
