@@ -86,7 +86,7 @@ class Viewport:
         self._core = core.load()
         reporter = Reporter(_print_warning, self._said)
         self._warnings = reporter.warnings
-        self._scene = export_scene(self._core, depsgraph, reporter, lambda: None, will_move=True).scene
+        self._scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
 
     def _take_picture(self, wait_s: float) -> bool:
         """Take over what the session has done within wait_s, and return whether it has ended."""

@@ -47,9 +47,9 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
         for (std::size_t i = 0; i < batch_size; ++i)
             samplers[i] = {hash(static_cast<std::uint32_t>(first + i), seed), 0};
         vertices.sampler = sampler_lanes(samplers);
-        LaneFlags shares{};
+        SharedLamps shared;
         const VertexBatch batch(vertices, std::min(batch_size, count - first));
-        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shares)) {
+        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared)) {
             wi.push_back(sample.wi);
             radiance.push_back(sample.radiance);
         }
@@ -119,8 +119,8 @@ py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple&
 py::array_t<float> choice_probabilities(Scene& scene, const Material& material, const Triple& position,
                                         const Triple& wo) {
     const Vertex vertex = vertex_at(scene, material, position, wo);
-    py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lights().size()));
-    for (std::size_t light = 0; light < scene.lights().size(); ++light) {
+    py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lamps().size()));
+    for (std::size_t light = 0; light < scene.lamps().size(); ++light) {
         probabilities.mutable_data()[light] = choice_probability(scene.lamp_tree(), vertex, light);
     }
     return probabilities;
@@ -164,7 +164,7 @@ void register_light_samples(py::module_& module) {
         "The light that each u (n,) in [0, 1) chooses down the light tree, (n,), -1 where none reaches the point, "
         "and with which probability, (n,).");
     scene.def("choice_probabilities", &choice_probabilities, py::arg("material"), py::arg("position"), py::arg("wo"),
-              "With which probability choose_lights takes each light, (lights,).");
+              "With which probability choose_lights takes each lamp, (lamps,).");
     scene.def(
         "light_tree", &light_tree,
         "Its nodes, the root first, each as (child (n,): a node, or ~light; center (n, 3); radius_m (n,); radiance "

@@ -168,11 +168,8 @@ void register_scene(py::module_& module) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     py::class_<Scene, std::shared_ptr<Scene>>(
         module, "Scene",
-        "Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.\n\n"
-        "will_move: instances will be moved, as in a viewport: each move then rebuilds little. Else the first move of "
-        "an "
-        "instance with no or few copies rebuilds all such, and rays are faster by a tenth to a fifth.")
-        .def(py::init<bool>(), py::kw_only(), py::arg("will_move") = false)
+        "Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.")
+        .def(py::init<>())
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("corner_vertices"),
              py::arg("triangle_corners"), py::arg("corner_normals") = py::none(), py::arg("corner_uvs") = py::none(),
              py::arg("triangle_slots") = py::none(),

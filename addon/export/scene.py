@@ -38,14 +38,13 @@ def export_scene(
     depsgraph: bpy.types.Depsgraph,
     reporter: Reporter,
     check_cancel: Callable[[], None],
-    will_move: bool = False,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. will_move: see pivot_core.Scene. Keeps nothing of the depsgraph but
+    check_cancel: called between objects, may raise. Keeps nothing of the depsgraph but
     in the Context returned. Raises RenderError naming the object at fault.
     """
-    context = Context(core, core.Scene(will_move=will_move), depsgraph, reporter)
+    context = Context(core, core.Scene(), depsgraph, reporter)
     _report_settings(context)
     export_world(context)
     _Exporter(context, check_cancel).export_objects()

@@ -130,10 +130,8 @@ class AreaLight:
 class Scene:
     """
     Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.
-
-    will_move: instances will be moved, as in a viewport: each move then rebuilds little. Else the first move of an instance with no or few copies rebuilds all such, and rays are faster by a tenth to a fifth.
     """
-    def __init__(self, *, will_move: bool = False) -> None: ...
+    def __init__(self) -> None: ...
     def add_instances(
         self,
         name: str,
@@ -178,7 +176,7 @@ class Scene:
         wo: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
-        With which probability choose_lights takes each light, (lights,).
+        With which probability choose_lights takes each lamp, (lamps,).
         """
     def choose_lights(
         self,

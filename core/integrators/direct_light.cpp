@@ -41,12 +41,16 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
 
 /// A sample by each vertex, of its own light; the lanes that the closed forms leave out are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
-                                   const LightPicks& picks, std::uint32_t dimension, LaneFlags& shares) {
+                                   const LightPicks& picks, std::uint32_t dimension, SharedLamps& shared_lamps) {
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
     std::array<const Light*, batch_size> lights{};
-    LaneFlags is_area{}, left{};
+    std::array<std::uint8_t, batch_size> is_area{}, left{};
+    // BSDF samples that meet emissive meshes count whatever is there.
+    const auto share = [&](std::size_t i) {
+        if (picks.light[i] < lamp_count) shared_lamps.add(i, {picks.light[i], picks.expected_samples[i]});
+    };
     for (std::size_t i = 0; i < batch_size; ++i) {
         if (i >= vertices.count() || !(picks.expected_samples[i] > 0.0f)) continue;
         lights[i] = &scene.lights()[picks.light[i]];
@@ -74,7 +78,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
             weight *= select(shared, balance(load(expected) * lit.pdf_omega, other), Batch(1.0f));
             const auto flags = store(shared);
             for (std::size_t i = 0; i < vertices.count(); ++i)
-                shares[i] |= static_cast<std::uint8_t>(flags[i] && picks.light[i] < lamp_count);
+                if (flags[i]) share(i);
         }
         samples = {select(sampled, lit.sample.radiance * weight, samples.radiance),
                    select(sampled, lit.sample.wi, samples.wi), select(sampled, lit.sample.reach_m, samples.reach_m)};
@@ -93,8 +97,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
         const SharedSample one =
             sample_light_of(*lights[i], strategy, vertices.lane(i), {u_x[i], u_y[i]}, picks.expected_samples[i]);
         each[i] = one.sample;
-        // BSDF samples that meet emissive meshes count whatever is there.
-        shares[i] |= static_cast<std::uint8_t>(one.shares && picks.light[i] < lamp_count);
+        if (one.shares) share(i);
     }
     std::array<const LightSample*, batch_size> lanes;
     for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = &each[i];
@@ -127,7 +130,7 @@ void pick_some(const LightTree& tree, std::size_t first, std::size_t count, cons
 /// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                     LaneFlags& shares, const Visit& visit) {
+                     SharedLamps& shared_lamps, const Visit& visit) {
     const std::size_t rounds = plan.lamp_samples + plan.triangle_samples;
     if (rounds == 0) return;
     std::array<LightPicks, max_light_samples> picks;
@@ -141,7 +144,7 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
     for (std::size_t k = 0; k < rounds; ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         const LightSampleOf<Batch> samples =
-            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shares);
+            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps);
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
         visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
                                     .direction = samples.wi,
@@ -169,20 +172,21 @@ float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex&
 }
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   LaneFlags& shares) {
+                   SharedLamps& shared_lamps) {
     Vec3b radiance(Batch(0.0f));
-    for_each_sample(
-        scene, strategy, plan, vertices, shares, [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
-            // Where no ray is, there is nothing to add.
-            radiance += select(rays.far_m > Batch(0.0f), samples.radiance * scene.visibility(rays), Vec3b(Batch(0.0f)));
-        });
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps,
+                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
+                        // Where no ray is, there is nothing to add.
+                        radiance += select(rays.far_m > Batch(0.0f), samples.radiance * scene.visibility(rays),
+                                           Vec3b(Batch(0.0f)));
+                    });
     return radiance;
 }
 
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, LaneFlags& shares) {
+                                          const VertexBatch& vertices, SharedLamps& shared_lamps) {
     std::vector<LightSample> result;
-    for_each_sample(scene, strategy, plan, vertices, shares,
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);

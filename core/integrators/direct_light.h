@@ -15,18 +15,33 @@ float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex&
 /// MIS by the balance heuristic.
 template <class T>
 T balance(T pdf, T other_pdf) {
-    return pdf / (pdf + other_pdf);
+    return T(1) / (T(1) + other_pdf / pdf);
 }
 
-/// Which lanes' BSDF samples must be traced for some lamp.
-using LaneFlags = std::array<std::uint8_t, batch_size>;
+/// A lamp that a vertex sampled, and for which its BSDF sample counts too: over expected_samples, as it does so only
+/// where the lamp was picked.
+struct SharedLamp {
+    std::size_t light;
+    float expected_samples;
+};
 
-/// What the vertices reflect of the lights that they see.
+/// Each lane's.
+class SharedLamps {
+   public:
+    void add(std::size_t lane, const SharedLamp& lamp) { lamps_[lane][count_[lane]++] = lamp; }
+    std::span<const SharedLamp> at(std::size_t lane) const { return {lamps_[lane].data(), count_[lane]}; }
+
+   private:
+    std::array<std::array<SharedLamp, max_lamp_samples>, batch_size> lamps_;
+    std::array<std::size_t, batch_size> count_{};
+};
+
+/// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   LaneFlags& shares);
+                   SharedLamps& shared);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, LaneFlags& shares);
+                                          const VertexBatch& vertices, SharedLamps& shared);
 
 }  // namespace pivot

@@ -46,7 +46,8 @@ template <class T>
 struct AreaLightOf {
     Vec3<T> center, half_u, half_v, normal;
     Vec3<T> radiance;
-    T parallelogram_m2, is_ellipse, is_triangle;  ///< 0 or 1
+    T parallelogram_m2;
+    T is_ellipse, is_triangle;  ///< 0 or 1
     T surface_error_m;
 };
 
@@ -110,7 +111,7 @@ LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<cons
                    .reach_m = select(is_sun, std::numeric_limits<Batch>::infinity(), distance * Batch(shadow_reach))},
         .valid = s.valid,
         .pdf_omega = Batch(0.0f),
-        .needs_bsdf = faces && !faces};
+        .needs_bsdf = BatchMask(false)};
 }
 
 LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
@@ -131,7 +132,7 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     view.normal = select(is_triangle && facing > zero, -view.normal, view.normal);  // a triangle has two sides
     const BatchMask reached = facing < zero || (is_triangle && facing > zero);
     LaneSamples lit{.sample = {Vec3b(zero), point.frame.z, zero},
-                    .valid = zero == zero,
+                    .valid = BatchMask(true),
                     .pdf_omega = Batch(1.0f),
                     .needs_bsdf = needs_bsdf_samples(view, surface.wo_local)};
     if (!any(reached)) return lit;

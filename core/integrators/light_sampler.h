@@ -17,8 +17,9 @@
 // and 8.9 measured, over 4e7 samples of 40000 surfaces and lights, 5e8 of 60000 area lights;
 // tests/core/test_sample_weights.py).
 //
-// An area light is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF
-// samples where these vary less (see area_sampling.h); else uniformly by area, sharing in every strategy but light.
+// An area lamp is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF samples
+// where these vary less (see area_sampling.h). Else, and a mesh's triangle always, it is drawn uniformly by area,
+// sharing in every strategy but light.
 #pragma once
 
 #include "core/distributions/elliptic_cone.h"

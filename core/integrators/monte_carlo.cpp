@@ -47,26 +47,26 @@ struct Work {
     std::span<Sample> samples;
 };
 
-/// The weight of a BSDF sample that meets a light, beside the light's own samples.
-float bsdf_weight(const Work& work, const BouncePlan& plan, const Vertex& vertex, std::size_t index,
-                  const LightPoint& place, float bsdf_pdf_omega) {
-    const LightSampler light(work.scene.lights()[index], vertex.point, vertex.surface, work.settings.light_sampling);
-    if (!light.shares_with_bsdf()) return 0.0f;
-    const float light_pdf_omega = light.pdf_omega(place);  // 0: BSDF samples are alone
-    const float expected = light_pdf_omega > 0.0f ? expected_samples(work.scene, plan, vertex, index) : 0.0f;
-    return balance(bsdf_pdf_omega, expected * light_pdf_omega);
+/// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
+float bsdf_weight(const Light& light, LightSampling strategy, const Vertex& vertex, const LightPoint& place,
+                  float expected_samples, float bsdf_pdf_omega) {
+    const LightSampler sampler(light, vertex.point, vertex.surface, strategy);
+    if (!sampler.shares_with_bsdf()) return 0.0f;
+    return balance(bsdf_pdf_omega, expected_samples * sampler.pdf_omega(place));  // 0: BSDF samples are alone
 }
 
-/// What a BSDF sample that reaches distance_m meets of the lamps.
-Rgb lamps_met(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
-              float distance_m) {
-    const std::span<const Light> lamps = work.scene.lamps();
+/// What a BSDF sample that reaches distance_m meets of the lamps that its vertex sampled.
+Rgb lamps_met(const Work& work, std::span<const SharedLamp> lamps, const Vertex& vertex, const Vec3f& wi,
+              float bsdf_pdf_omega, float distance_m) {
     Rgb radiance(0.0f);
-    for (std::size_t i = 0; i < lamps.size(); ++i) {
-        const auto place = intersect_light(lamps[i], vertex.point.position, wi);
+    for (const auto& [index, expected] : lamps) {
+        const Light& lamp = work.scene.lights()[index];
+        const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        radiance += place->radiance * bsdf_weight(work, plan, vertex, i, *place, bsdf_pdf_omega);
+        radiance +=
+            place->radiance *
+            (bsdf_weight(lamp, work.settings.light_sampling, vertex, *place, expected, bsdf_pdf_omega) / expected);
     }
     return radiance;
 }
@@ -76,9 +76,11 @@ Rgb emission_met(const Work& work, const BouncePlan& plan, const Vertex& vertex,
                  const RayHit& hit, const Rgb& emission) {
     const auto index = work.scene.light_of(hit);
     if (!index) return emission;
-    const auto place = light_point(std::get<AreaLight>(work.scene.lights()[*index]), wi, hit.distance_m);
+    const Light& light = work.scene.lights()[*index];
+    const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return emission;
-    return emission * bsdf_weight(work, plan, vertex, *index, *place, bsdf_pdf_omega);
+    return emission * bsdf_weight(light, work.settings.light_sampling, vertex, *place,
+                                  expected_samples(work.scene, plan, vertex, *index), bsdf_pdf_omega);
 }
 
 /// Up to a batch of paths at their vertices.
@@ -148,8 +150,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     const Vec3b wi = vertices.point.frame.to_world(wi_local);
     const Batch zero(0.0f), pdf = pdf_omega(vertices.surface, wi_local);
     const Vec3b throughput = batch.lanes.throughput * eval(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
-    const BatchMask goes_on =
-        wanted && vertices.is_vertex() && pdf > zero && vertices.point.faces(wi) && max_component(throughput) > zero;
+    const BatchMask goes_on = wanted && pdf > zero && vertices.point.faces(wi) && max_component(throughput) > zero;
     return {.rays = {.origin = vertices.point.ray_origin(wi),
                      .direction = wi,
                      .near_m = zero,
@@ -162,7 +163,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 
 /// Follows a bounce's rays to what they meet: lights, the world, or the paths' next vertices.
 void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, const PathBatch& batch,
-            const Scattered& scattered, const LaneFlags& shares, Paths& next) {
+            const Scattered& scattered, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
     const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
     const std::array<Path, batch_size> paths = unpack<PathOf>({.direction = scattered.rays.direction,
@@ -179,8 +180,8 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
         Path path = paths[i];
         const bool is_met = path.hit.instance != no_instance;
         Rgb light = is_met ? Rgb(0.0f) : scene.world();
-        if (shares[i])
-            light += lamps_met(work, plan, batch.vertices.lane(i), path.direction, pdf_omega[i],
+        if (!shared.at(i).empty())
+            light += lamps_met(work, shared.at(i), batch.vertices.lane(i), path.direction, pdf_omega[i],
                                is_met ? path.hit.distance_m : std::numeric_limits<float>::infinity());
         if (is_met) {
             path.material = scene.material_of(path.hit);
@@ -197,7 +198,8 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
         }
         next.push_back(path);
     }
-    add_light(work, bounce, batch, scattered.throughput * Vec3b(load(r), load(g), load(b)));
+    add_light(work, bounce, batch,
+              select(scattered.goes_on, scattered.throughput * Vec3b(load(r), load(g), load(b)), Vec3b(Batch(0.0f))));
 }
 
 /// Traces up to a batch of paths from their vertices on: what light they bring there, and where they go next.
@@ -205,20 +207,20 @@ void trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce
                   Paths& next) {
     const PathBatch batch = make_batch(work, paths);
     if (bounce == 0) see_first_hits(work, batch);
-    LaneFlags shares{};
+    SharedLamps shared;
     add_light(
         work, bounce, batch,
-        batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shares));
+        batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shared));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     Lanes wanted{};
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const bool is_last = bounce == work.settings.max_bounces;
-        wanted[i] = !is_last || work.scene.has_unsampled_light() || shares[i] ? 1.0f : 0.0f;
+        wanted[i] = !is_last || work.scene.has_unsampled_light() || !shared.at(i).empty() ? 1.0f : 0.0f;
     }
     const BatchMask is_wanted = load(wanted) > Batch(0.0f);
     if (!any(is_wanted)) return;
     const Scattered scattered = scatter(plan, batch, is_wanted);
-    if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shares, next);
+    if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shared, next);
 }
 
 /// The camera's rays; those that meet nothing end here.

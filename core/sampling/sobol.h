@@ -69,8 +69,6 @@ struct SamplerOf {
         return Vec2<std::remove_const_t<decltype(x)>>(
             x, to_unit(reverse_bits(owen_scramble_reversed(sobol_second_reversed(index), hash(seed, U(2u))))));
     }
-
-    auto number(std::uint32_t dimension) const { return point(dimension).x; }
 };
 
 using Sampler = SamplerOf<std::uint32_t>;

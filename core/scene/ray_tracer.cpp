@@ -156,7 +156,7 @@ struct RayTracer::Implementation {
         std::uint32_t mesh;
         Transform world_from_object;
         std::uint32_t visibility;
-        bool will_move;
+        bool has_moved;
     };
     enum class Side { still, moving };
 
@@ -169,7 +169,7 @@ struct RayTracer::Implementation {
     std::unordered_map<std::uint32_t, Side> attached;  ///< asking Embree for an unused id aborts
     std::unordered_map<std::uint32_t, std::vector<Vec3f>> still_positions;
     std::vector<std::uint32_t> waiting;  ///< placed, for commit() to attach: adding is quick
-    bool will_move = false, has_still = false, has_moving = false, still_changed = true, changed = true;
+    bool has_still = false, has_moving = false, still_changed = true, changed = true;
     std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
 
     void check() const {
@@ -254,7 +254,7 @@ struct RayTracer::Implementation {
             const bool is_small = copies * meshes.at(instance.mesh)->triangles.size() <= max_copied_triangles;
             // What is scaled flat has no space of its own to be traced in.
             const bool is_still =
-                !instance.world_from_object.is_invertible() || (!instance.will_move && (copies == 1 || is_small));
+                !instance.world_from_object.is_invertible() || (!instance.has_moved && (copies == 1 || is_small));
             if (is_still) attach_still(id, instance);
             if (!is_still) attach_moving(id, instance);
             attached[id] = is_still ? Side::still : Side::moving;
@@ -263,9 +263,8 @@ struct RayTracer::Implementation {
     }
 };
 
-RayTracer::RayTracer(bool will_move) : implementation_(std::make_unique<Implementation>()) {
+RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
-    self.will_move = will_move;
     self.device.reset(rtcNewDevice(nullptr));
     if (!self.device)
         throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
@@ -289,7 +288,7 @@ void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, c
     auto& self = *implementation_;
     const bool was_placed = self.placed.contains(instance_id);
     remove_instance(instance_id);
-    self.placed[instance_id] = {mesh_id, world_from_object, visibility, self.will_move || was_placed};
+    self.placed[instance_id] = {mesh_id, world_from_object, visibility, was_placed};
     self.waiting.push_back(instance_id);
     self.changed = true;
 }

@@ -39,9 +39,7 @@ enum Visibility : std::uint32_t { visible_to_camera = 1, visible_to_light = 2, v
 
 class RayTracer {
    public:
-    /// will_move: whether instances will be moved; each is then traced in its own space, which rebuilds little. Else
-    /// what has no or few copies is traced in world space, in one BVH, until it is moved after all.
-    explicit RayTracer(bool will_move);
+    RayTracer();
     ~RayTracer();
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;

@@ -30,9 +30,6 @@ struct NamedLight {
 
 class Scene {
    public:
-    /// will_move: see RayTracer.
-    explicit Scene(bool will_move = false) : ray_tracer_(will_move) {}
-
     std::uint32_t add_mesh(Mesh mesh);
     std::uint32_t add_material(const std::string& name, const Material& material);
     std::uint32_t add_instance(Instance instance);

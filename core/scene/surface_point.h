@@ -51,11 +51,14 @@ SurfacePointOf<T> surface_point(const HitTriangleOf<T>& triangle, const Vec2<T>&
     constexpr float error_per_magnitude = 0x1p-20f;  // a few roundings of 2^-24 each, with room
     point.error_m = T(error_per_magnitude) * max_component(magnitude);
 
-    const Vec3<T> normal = normalize(triangle.normal_matrix * cross(b - a, c - a));
+    const Vec3<T> across = triangle.normal_matrix * cross(b - a, c - a);
+    const T across2 = length_squared(across);
+    // Rays meet corners on one line by rounding: such a sliver faces the viewer.
+    const Vec3<T> normal = select(across2 >= tiny<T>, across * inverse_sqrt(max(across2, tiny<T>)), wo);
     const Vec3<T> n = triangle.normal_matrix * ((T(1) - barycentric.x - barycentric.y) * triangle.normal_a +
                                                 barycentric.x * triangle.normal_b + barycentric.y * triangle.normal_c);
     const T n2 = length_squared(n);
-    const Vec3<T> smooth = select(n2 > T(0), n * inverse_sqrt(max(n2, tiny<T>)), normal);
+    const Vec3<T> smooth = select(n2 >= tiny<T>, n * inverse_sqrt(max(n2, tiny<T>)), normal);
     point.front = select(dot(normal, wo) >= T(0), T(1), T(-1));
     point.normal_geometric = normal * point.front;
     // A normal of the wrong side (flipped custom normals) is turned with the surface it belongs to.
