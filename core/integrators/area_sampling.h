@@ -118,8 +118,7 @@ T choose_part(const std::array<T, n>& probability, T& u) {
 /// How far the light reaches along half_v at x.
 template <class T>
 T half_height(const AreaView<T>& light, T x) {
-    const T of_triangle = select(light.triangle, max(T(0.5f) * (T(1) + x), T(1e-3f)), T(1));
-    return select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), of_triangle);
+    return select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), T(1));
 }
 
 /// One lobe's cells.
@@ -203,9 +202,7 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
     // Below the horizon there is no lobe to fit: go towards the light's highest place.
     const T rise_u = light.half_u.z, rise_v = light.half_v.z;
     const T shrink = select(light.ellipse, T(1) / sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
-    const auto tip = light.triangle && rise_u + abs(rise_v) < -rise_u;
-    const T end_x = select(tip || (!light.triangle && rise_u < T(0)), T(-1), T(1));
-    const T end_y = select(tip, T(0), select(rise_v < T(0), T(-1), T(1)));
+    const T end_x = select(rise_u < T(0), T(-1), T(1)), end_y = select(rise_v < T(0), T(-1), T(1));
     const T top_x = select(light.ellipse, rise_u * shrink, end_x);
     const T top_y = select(light.ellipse, rise_v * shrink, end_y);
     const T top_z = light.center.z + top_x * rise_u + top_y * rise_v;
@@ -239,7 +236,7 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
 
 }  // namespace detail
 
-/// Joint samples of an area light that shines on the lit point, dot(center, normal) < 0.
+/// Joint samples of a rectangle or an ellipse that shines on the lit point, dot(center, normal) < 0.
 template <class T>
 class AreaSampler {
    public:

@@ -25,7 +25,7 @@ template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
 constexpr std::uint32_t still_id = 0;
-/// Instances of a mesh are traced as so many meshes if they come to no more than this: some 50 MB.
+/// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB.
 constexpr std::size_t max_copied_triangles = 1u << 19;
 
 /// The instance that a hit's ids name; no_instance where nothing was hit.
@@ -169,6 +169,7 @@ struct RayTracer::Implementation {
     std::unordered_map<std::uint32_t, Side> attached;  ///< asking Embree for an unused id aborts
     std::unordered_map<std::uint32_t, std::vector<Vec3f>> still_positions;
     std::vector<std::uint32_t> waiting;  ///< placed, for commit() to attach: adding is quick
+    std::size_t copied_triangles = 0;
     bool has_still = false, has_moving = false, still_changed = true, changed = true;
     std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
 
@@ -250,12 +251,12 @@ struct RayTracer::Implementation {
             const auto found = placed.find(id);
             if (found == placed.end() || attached.contains(id)) continue;
             const Placed& instance = found->second;
-            const std::size_t copies = uses[instance.mesh];
-            const bool is_small = copies * meshes.at(instance.mesh)->triangles.size() <= max_copied_triangles;
+            const std::size_t copied = uses[instance.mesh] > 1 ? meshes.at(instance.mesh)->triangles.size() : 0;
+            const bool has_room = copied_triangles + copied <= max_copied_triangles;
             // What is scaled flat has no space of its own to be traced in.
-            const bool is_still =
-                !instance.world_from_object.is_invertible() || (!instance.has_moved && (copies == 1 || is_small));
+            const bool is_still = !instance.world_from_object.is_invertible() || (!instance.has_moved && has_room);
             if (is_still) attach_still(id, instance);
+            if (is_still) copied_triangles += copied;
             if (!is_still) attach_moving(id, instance);
             attached[id] = is_still ? Side::still : Side::moving;
         }
