@@ -25,7 +25,7 @@ Vertex vertex_at(Scene& scene, const Material& material, const Triple& position,
     return {{}, point, make_surface(material, point.wo_local)};
 }
 
-/// Of the lamps alone; light_samples: how many a vertex takes.
+/// A vertex that samples lamps alone, so many of them.
 BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
     if (light_samples != 1 && light_samples != std::min(scene.lamps().size(), max_lamp_samples)) {
         throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +

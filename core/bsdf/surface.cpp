@@ -21,8 +21,8 @@ Vec3<T> multiscatter_scale(const Vec3<T>& mean_fresnel, T albedo, T mean_albedo)
     return Vec3<T>(T(1)) + bounces * ((T(1) - albedo) / albedo);
 }
 
-/// Of the GGX lobe towards wo, over what it would reflect without Fresnel. dielectric_share: of the dielectric's way
-/// from normal to grazing incidence.
+/// What the GGX lobe reflects towards wo over what it would without Fresnel. dielectric_share: where the dielectric
+/// stands between normal (0) and grazing incidence (1).
 template <class T>
 Vec3<T> mean_fresnel(const SurfaceOf<T>& surface, T dielectric_share) {
     const LobeFresnelOf<T>& f = surface.fresnel;

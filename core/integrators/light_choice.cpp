@@ -60,7 +60,7 @@ Batch light_importance(const Receiver& receiver, const LightProxy& light) {
     return reflected * lit * light.radiance;
 }
 
-/// Of all children for one vertex.
+/// What a node's children weigh for one vertex.
 Weights child_weights(const LightTree::Node& node, const Receiver& receiver) {
     Weights weights;
     for (std::size_t first = 0; first < light_tree_width; first += batch_size)

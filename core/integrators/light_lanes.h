@@ -1,4 +1,4 @@
-// A light sample by each lane of a batch of vertices, jointly with what the vertex' surface reflects.
+// A light sample by each lane of a batch of vertices.
 #pragma once
 
 #include "core/integrators/joint_sampling.h"
@@ -25,11 +25,11 @@ struct LaneSamples {
     BatchMask needs_bsdf;  ///< whether BSDF samples must share
 };
 
-/// Of cap-shaped lights, one a lane; u: of each lane.
+/// Samples of cap-shaped lights, one a lane, jointly with the lobes; u: of each lane.
 LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
                               const Vec2b& u);
 
-/// Of area lights.
+/// Samples of area lights: lamps jointly with the lobes, triangles evenly by area.
 LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
                                const Vec2b& u);
 

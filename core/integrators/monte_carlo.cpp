@@ -26,7 +26,7 @@ using Path = PathOf<float>;
 /// Paths that have reached the same bounce.
 using Paths = std::vector<Path>;
 
-/// The same, by material: what a batch's lanes have in common is done once for all. (Counted, stable.)
+/// Sorts paths by material, stably, by counting: what a batch's lanes have in common is done once for all.
 void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& first_of) {
     for (const Path& path : paths) {
         if (path.material + 2 > first_of.size()) first_of.resize(path.material + 2);

@@ -323,11 +323,10 @@ void RayTracer::commit() {
             rtcCommitGeometry(geometry.get());
             rtcAttachGeometryByID(self.world.get(), geometry.get(), still_id);
         }
-        self.still_changed = false;
     }
     rtcCommitScene(self.world.get());
     self.check();
-    self.changed = false;
+    self.changed = self.still_changed = false;
 }
 
 std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) const {

@@ -88,7 +88,7 @@ class Scene {
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
         return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
     }
-    /// By their ids.
+    /// Every material; an id is its place.
     std::span<const Material> materials() const { return materials_; }
     std::uint32_t material_of(const RayHit& hit) const;
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().

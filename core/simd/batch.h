@@ -62,7 +62,7 @@ using Word = std::conditional_t<std::is_same_v<T, Batch>, WordBatch, std::uint32
 template <class T>
 using Index = std::conditional_t<std::is_same_v<T, Batch>, IndexBatch, std::int32_t>;
 
-/// Of a whole number.
+/// The place that a whole number names.
 inline std::int32_t to_index(float x) { return static_cast<std::int32_t>(x); }
 inline IndexBatch to_index(const Batch& x) { return xsimd::to_int(x); }
 
