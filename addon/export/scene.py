@@ -41,8 +41,8 @@ def export_scene(
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. Keeps nothing of the depsgraph but
-    in the Context returned. Raises RenderError naming the object at fault.
+    check_cancel: called between objects, may raise. Keeps nothing of the depsgraph but in the Context returned.
+    Raises RenderError naming the object at fault.
     """
     context = Context(core, core.Scene(), depsgraph, reporter)
     _report_settings(context)

@@ -137,9 +137,8 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
                     .needs_bsdf = needs_bsdf_samples(view, surface.wo_local)};
     if (!any(reached)) return lit;
     // A triangle of many is small, or shares with BSDF samples what it is too large for.
-    const Batch along = sqrt(u.x);
-    Vec2b place(Batch(2.0f) * along - Batch(1.0f), (Batch(2.0f) * u.y - Batch(1.0f)) * along);
-    Batch pdf_xy(0.5f);
+    Vec2b place = place_in_triangle(u);
+    Batch pdf_xy(1.0f / relative_area(AreaShape::triangle));
     if (any(!is_triangle)) {
         const AreaSampler<Batch> sampler(joint_surface(surface), view);
         const Vec2b joint = sampler.sample(u);

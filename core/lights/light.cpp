@@ -115,7 +115,7 @@ const SphereLight* sphere_of(const Light& light) {
 Vec3f place_on(const AreaLight& light, const Vec2f& u) {
     Vec2f place = 2.0f * u - 1.0f;
     if (light.shape == AreaShape::ellipse) place = sample_disk(u);
-    if (light.shape == AreaShape::triangle) place = {2.0f * sqrt(u.x) - 1.0f, place.y * sqrt(u.x)};
+    if (light.shape == AreaShape::triangle) place = place_in_triangle(u);
     return light.center + place.x * light.half_u + place.y * light.half_v;
 }
 

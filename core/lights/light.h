@@ -142,6 +142,13 @@ bool is_on_light(const AreaLight& light, const Vec2f& coordinates);
 /// The sphere of a sphere light or a spot; nothing for others.
 const SphereLight* sphere_of(const Light& light);
 
+/// Coordinates on a triangle for u in [0, 1)^2, uniform by area.
+template <class T>
+Vec2<T> place_in_triangle(const Vec2<T>& u) {
+    const T along = sqrt(u.x);
+    return {T(2) * along - T(1), (T(2) * u.y - T(1)) * along};
+}
+
 /// A place on an area light for u in [0, 1)^2, uniform by area.
 Vec3f place_on(const AreaLight& light, const Vec2f& u);
 

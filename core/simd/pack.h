@@ -16,23 +16,28 @@ inline void store_row(Batch row, float* low, float* high) {
     _mm_storeu_ps(low, _mm256_castps256_ps128(row));
     _mm_storeu_ps(high, _mm256_extractf128_ps(row, 1));
 }
-inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
-    const Batch ab_low = _mm256_unpacklo_ps(r[0], r[1]), ab_high = _mm256_unpackhi_ps(r[0], r[1]);
-    const Batch cd_low = _mm256_unpacklo_ps(r[2], r[3]), cd_high = _mm256_unpackhi_ps(r[2], r[3]);
-    return {_mm256_shuffle_ps(ab_low, cd_low, 0x44), _mm256_shuffle_ps(ab_low, cd_low, 0xee),
-            _mm256_shuffle_ps(ab_high, cd_high, 0x44), _mm256_shuffle_ps(ab_high, cd_high, 0xee)};
-}
+// Within each four numbers: the first two of a and b by turns, the last two; then the first two of each, the last two.
+inline Batch zip_first(Batch a, Batch b) { return _mm256_unpacklo_ps(a, b); }
+inline Batch zip_last(Batch a, Batch b) { return _mm256_unpackhi_ps(a, b); }
+inline Batch join_first(Batch a, Batch b) { return _mm256_shuffle_ps(a, b, 0x44); }
+inline Batch join_last(Batch a, Batch b) { return _mm256_shuffle_ps(a, b, 0xee); }
 #else
 inline Batch load_row(const float* low, const float*) { return _mm_loadu_ps(low); }
 inline void store_row(Batch row, float* low, float*) { _mm_storeu_ps(low, row); }
-inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
-    const Batch ab_low = _mm_unpacklo_ps(r[0], r[1]), ab_high = _mm_unpackhi_ps(r[0], r[1]);
-    const Batch cd_low = _mm_unpacklo_ps(r[2], r[3]), cd_high = _mm_unpackhi_ps(r[2], r[3]);
-    return {_mm_shuffle_ps(ab_low, cd_low, 0x44), _mm_shuffle_ps(ab_low, cd_low, 0xee),
-            _mm_shuffle_ps(ab_high, cd_high, 0x44), _mm_shuffle_ps(ab_high, cd_high, 0xee)};
-}
+inline Batch zip_first(Batch a, Batch b) { return _mm_unpacklo_ps(a, b); }
+inline Batch zip_last(Batch a, Batch b) { return _mm_unpackhi_ps(a, b); }
+inline Batch join_first(Batch a, Batch b) { return _mm_shuffle_ps(a, b, 0x44); }
+inline Batch join_last(Batch a, Batch b) { return _mm_shuffle_ps(a, b, 0xee); }
 #endif
 static_assert(batch_size % 4 == 0);
+
+/// Of each four numbers of the four rows: rows become columns.
+inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
+    const Batch ab_first = zip_first(r[0], r[1]), ab_last = zip_last(r[0], r[1]);
+    const Batch cd_first = zip_first(r[2], r[3]), cd_last = zip_last(r[2], r[3]);
+    return {join_first(ab_first, cd_first), join_last(ab_first, cd_first), join_first(ab_last, cd_last),
+            join_last(ab_last, cd_last)};
+}
 
 /// Calls visit(first) with where each group of four numbers starts; the last overlaps the one before.
 template <class One, class Visit>
