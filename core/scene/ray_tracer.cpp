@@ -7,10 +7,14 @@
 #endif
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
+
+#include "core/simd/pack.h"
 
 namespace pivot {
 namespace {
@@ -27,6 +31,8 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 constexpr std::uint32_t still_id = 0;
 /// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB.
 constexpr std::size_t max_copied_triangles = 1u << 19;
+/// A BVH of more triangles is compact: it takes 50 bytes a triangle less, and rays take a quarter to a third longer.
+constexpr std::size_t max_fast_triangles = 1u << 22;
 
 /// The instance that a hit's ids name; no_instance where nothing was hit.
 std::uint32_t instance_of(std::uint32_t world_id, std::uint32_t geometry_id) {
@@ -55,64 +61,6 @@ RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     return r;
 }
 
-/// How many rays an Embree packet holds, by the type of one of its fields.
-template <class Packet>
-constexpr std::size_t width_of = std::extent_v<decltype(Packet::tfar)>;
-
-/// Fills a packet with the first rays there are; `valid` is -1 for those and 0 for lanes left over.
-template <class Packet>
-void fill_packet(Packet& packet, int* valid, std::span<const Ray> rays, std::uint32_t mask) {
-    for (std::size_t i = 0; i < width_of<Packet>; ++i) {
-        valid[i] = i < rays.size() ? -1 : 0;
-        const Ray& ray = rays[std::min(i, rays.size() - 1)];
-        packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
-        packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
-        packet.tnear[i] = ray.near_m;
-        packet.tfar[i] = ray.far_m;
-        packet.time[i] = 0.0f;
-        packet.mask[i] = mask;
-        packet.flags[i] = 0;
-    }
-}
-
-template <class Packet, class PacketHit, class Call>
-void intersect_packets(Call call, RTCScene scene, std::span<const Ray> rays, std::uint32_t mask,
-                       std::span<std::optional<RayHit>> hits) {
-    constexpr std::size_t width = width_of<Packet>;
-    for (std::size_t first = 0; first < rays.size(); first += width) {
-        alignas(64) int valid[width];
-        PacketHit r;
-        const std::size_t count = std::min(width, rays.size() - first);
-        fill_packet(r.ray, valid, rays.subspan(first, count), mask);
-        for (std::size_t i = 0; i < width; ++i) {
-            r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-            r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        }
-        trace(call, scene, r, valid);
-        for (std::size_t i = 0; i < count; ++i) {
-            hits[first + i].reset();
-            if (r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-            hits[first + i] = RayHit{r.ray.tfar[i],
-                                     instance_of(r.hit.instID[0][i], r.hit.geomID[i]),
-                                     r.hit.primID[i],
-                                     {r.hit.u[i], r.hit.v[i]}};
-        }
-    }
-}
-
-template <class Packet, class Call>
-void occluded_packets(Call call, RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
-    constexpr std::size_t width = width_of<Packet>;
-    for (std::size_t first = 0; first < rays.size(); first += width) {
-        alignas(64) int valid[width];
-        Packet r;
-        const std::size_t count = std::min(width, rays.size() - first);
-        fill_packet(r, valid, rays.subspan(first, count), visible_to_light);
-        trace(call, scene, r, valid);
-        for (std::size_t i = 0; i < count; ++i) occluded[first + i] = r.tfar[i] < 0.0f;
-    }
-}
-
 #ifdef __AVX2__
 using BatchRays = RTCRay8;
 using BatchHits = RTCRayHit8;
@@ -124,9 +72,9 @@ using BatchHits = RTCRayHit4;
 constexpr auto intersect_batch = rtcIntersect4;
 constexpr auto occluded_batch = rtcOccluded4;
 #endif
-static_assert(width_of<BatchRays> == batch_size && no_instance == RTC_INVALID_GEOMETRY_ID);
+static_assert(std::extent_v<decltype(BatchRays::tfar)> == batch_size && no_instance == RTC_INVALID_GEOMETRY_ID);
 
-/// Those of the batch that are rays, into `packet`; `valid` as in fill_packet. Returns whether any is.
+/// Fills a packet with a batch; `valid` is -1 for lanes that are rays, else 0. Returns whether any is.
 bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::uint32_t mask) {
     const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
     put(rays.origin.x, packet.org_x), put(rays.origin.y, packet.org_y), put(rays.origin.z, packet.org_z);
@@ -142,6 +90,18 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::u
     return any;
 }
 
+/// Calls visit(first, count, RayOf<Batch>) with so many rays from `first` on, in as many lanes.
+template <class Visit>
+void for_each_batch(std::span<const Ray> rays, const Visit& visit) {
+    constexpr Ray no_ray{.origin = Vec3f(0.0f), .direction = Vec3f(0.0f), .near_m = 0.0f, .far_m = 0.0f};
+    for (std::size_t first = 0; first < rays.size(); first += batch_size) {
+        const std::size_t count = std::min(batch_size, rays.size() - first);
+        std::array<const Ray*, batch_size> lanes;
+        for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = i < count ? &rays[first + i] : &no_ray;
+        visit(first, count, pack<RayOf>(lanes));
+    }
+}
+
 void set_transform(RTCGeometry geometry, const Transform& transform) {
     const Mat3<float>& m = transform.linear;
     const Vec3f& t = transform.translation;
@@ -152,26 +112,26 @@ void set_transform(RTCGeometry geometry, const Transform& transform) {
 }  // namespace
 
 struct RayTracer::Implementation {
+    enum class Side { none, still, moving };
     struct Placed {
         std::uint32_t mesh;
         Transform world_from_object;
         std::uint32_t visibility;
         bool has_moved;
+        Side side = Side::none;             ///< where it is attached; commit() does that: adding is quick
+        std::size_t copied_triangles = 0;   ///< of what is still and has copies
+        std::vector<Vec3f> positions = {};  ///< of the mesh in world space, of what is still
     };
-    enum class Side { still, moving };
 
     Owned<RTCDevice> device;
     Owned<RTCScene> world;  ///< still_id is the still scene; id + 1 an instance that is traced in its own space
     Owned<RTCScene> still;  ///< instances in world space: one BVH, and no transforms on the way
+    Owned<RTCGeometry> still_in_world;
     std::unordered_map<std::uint32_t, const Mesh*> meshes;
     std::unordered_map<std::uint32_t, Owned<RTCScene>> mesh_scenes;  ///< of the meshes that instances need
-    std::unordered_map<std::uint32_t, Placed> placed;
-    std::unordered_map<std::uint32_t, Side> attached;  ///< asking Embree for an unused id aborts
-    std::unordered_map<std::uint32_t, std::vector<Vec3f>> still_positions;
-    std::vector<std::uint32_t> waiting;  ///< placed, for commit() to attach: adding is quick
-    std::size_t copied_triangles = 0;
-    bool has_still = false, has_moving = false, still_changed = true, changed = true;
-    std::size_t packet_width = 1;  ///< rays that Embree traces together on this machine
+    std::map<std::uint32_t, Placed> placed;
+    std::size_t copied_triangles = 0, moving_count = 0;
+    bool still_changed = true, changed = true;
 
     void check() const {
         const RTCError error = rtcGetDeviceError(device.get());
@@ -181,13 +141,15 @@ struct RayTracer::Implementation {
     }
 
     /// What rays are traced in: where nothing moves, the still scene needs no other around it.
-    RTCScene traced() const { return has_moving ? world.get() : still.get(); }
+    RTCScene traced() const { return moving_count > 0 ? world.get() : still.get(); }
 
-    Owned<RTCScene> make_scene() const {
-        Owned<RTCScene> scene(rtcNewScene(device.get()));
+    Owned<RTCScene> make_scene() const { return Owned<RTCScene>(rtcNewScene(device.get())); }
+
+    void build(RTCScene scene, std::size_t triangle_count) const {
         // Exact at shared edges: no light leaks between triangles.
-        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-        return scene;
+        const int flags = RTC_SCENE_FLAG_ROBUST | (triangle_count > max_fast_triangles ? RTC_SCENE_FLAG_COMPACT : 0);
+        rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
+        rtcCommitScene(scene);
     }
 
     Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const {
@@ -196,6 +158,13 @@ struct RayTracer::Implementation {
                                    sizeof(Vec3f), mesh.vertex_count());
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                    sizeof(Triangle), mesh.triangles.size());
+        return geometry;
+    }
+
+    Owned<RTCGeometry> make_instance(RTCScene scene, const Transform& world_from_object) const {
+        Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(geometry.get(), scene);
+        set_transform(geometry.get(), world_from_object);
         return geometry;
     }
 
@@ -208,59 +177,68 @@ struct RayTracer::Implementation {
             rtcCommitGeometry(geometry.get());
             scene = make_scene();
             rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
-            rtcCommitScene(scene.get());
+            build(scene.get(), mesh.triangles.size());
         }
         return scene.get();
     }
 
-    void attach_still(std::uint32_t id, const Placed& instance) {
+    void attach_still(std::uint32_t id, Placed& instance) {
         const Mesh& mesh = *meshes.at(instance.mesh);
-        std::vector<Vec3f>& positions = still_positions[id];
-        positions.reserve(mesh.positions.size());
-        for (const Vec3f& p : mesh.positions) positions.push_back(instance.world_from_object.point(p));
-        const auto geometry = make_triangles(mesh, positions);
+        instance.positions.reserve(mesh.positions.size());
+        for (const Vec3f& p : mesh.positions) instance.positions.push_back(instance.world_from_object.point(p));
+        const auto geometry = make_triangles(mesh, instance.positions);
         rtcSetGeometryMask(geometry.get(), instance.visibility);
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(still.get(), geometry.get(), id);
+        instance.side = Side::still;
         still_changed = true;
     }
 
-    void attach_moving(std::uint32_t id, const Placed& instance) {
-        const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-        rtcSetGeometryInstancedScene(geometry.get(), scene_of_mesh(instance.mesh));
-        set_transform(geometry.get(), instance.world_from_object);
+    void attach_moving(std::uint32_t id, Placed& instance) {
+        const Owned<RTCGeometry> geometry = make_instance(scene_of_mesh(instance.mesh), instance.world_from_object);
         rtcSetGeometryMask(geometry.get(), instance.visibility);
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(world.get(), geometry.get(), id + 1);
+        instance.side = Side::moving;
+        ++moving_count;
     }
 
-    void detach(std::uint32_t id) {
-        const auto found = attached.find(id);
-        if (found == attached.end()) return;
-        const bool is_still = found->second == Side::still;
-        rtcDetachGeometry(is_still ? still.get() : world.get(), is_still ? id : id + 1);
-        still_changed = still_changed || is_still;
-        still_positions.erase(id);
-        attached.erase(found);
+    void detach(std::uint32_t id, Placed& instance) {
+        if (instance.side == Side::still) {
+            rtcDetachGeometry(still.get(), id);
+            copied_triangles -= std::exchange(instance.copied_triangles, 0);
+            instance.positions = {};
+            still_changed = true;
+        } else if (instance.side == Side::moving) {
+            rtcDetachGeometry(world.get(), id + 1);
+            --moving_count;
+        }
+        instance.side = Side::none;
     }
 
-    void attach_waiting() {
+    std::size_t still_triangles() const {
+        std::size_t count = 0;
+        for (const auto& [id, instance] : placed) {
+            if (instance.side == Side::still) count += meshes.at(instance.mesh)->triangles.size();
+        }
+        return count;
+    }
+
+    void attach_all() {
         std::unordered_map<std::uint32_t, std::size_t> uses;
         for (const auto& [id, instance] : placed) ++uses[instance.mesh];
-        for (const std::uint32_t id : waiting) {
-            const auto found = placed.find(id);
-            if (found == placed.end() || attached.contains(id)) continue;
-            const Placed& instance = found->second;
+        for (auto& [id, instance] : placed) {
+            if (instance.side != Side::none) continue;
             const std::size_t copied = uses[instance.mesh] > 1 ? meshes.at(instance.mesh)->triangles.size() : 0;
             const bool has_room = copied_triangles + copied <= max_copied_triangles;
             // What is scaled flat has no space of its own to be traced in.
-            const bool is_still = !instance.world_from_object.is_invertible() || (!instance.has_moved && has_room);
-            if (is_still) attach_still(id, instance);
-            if (is_still) copied_triangles += copied;
-            if (!is_still) attach_moving(id, instance);
-            attached[id] = is_still ? Side::still : Side::moving;
+            if (!instance.world_from_object.is_invertible() || (!instance.has_moved && has_room)) {
+                attach_still(id, instance);
+                copied_triangles += instance.copied_triangles = copied;
+            } else {
+                attach_moving(id, instance);
+            }
         }
-        waiting.clear();
     }
 };
 
@@ -269,14 +247,11 @@ RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
     self.device.reset(rtcNewDevice(nullptr));
     if (!self.device)
         throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
-    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(self.device.get(), property); };
-    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) {
-        self.packet_width = 16;
-    } else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) {
-        self.packet_width = 8;
-    }
     self.world = self.make_scene();
     self.still = self.make_scene();
+    self.still_in_world = self.make_instance(self.still.get(), {});
+    rtcSetGeometryMask(self.still_in_world.get(), visible_to_all);
+    rtcAttachGeometryByID(self.world.get(), self.still_in_world.get(), still_id);
     self.check();
 }
 
@@ -290,14 +265,29 @@ void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, c
     const bool was_placed = self.placed.contains(instance_id);
     remove_instance(instance_id);
     self.placed[instance_id] = {mesh_id, world_from_object, visibility, was_placed};
-    self.waiting.push_back(instance_id);
     self.changed = true;
+}
+
+void RayTracer::set_visibility(std::uint32_t instance_id, std::uint32_t visibility) {
+    auto& self = *implementation_;
+    Implementation::Placed& instance = self.placed.at(instance_id);
+    instance.visibility = visibility;
+    if (instance.side == Implementation::Side::none) return;
+    const bool is_still = instance.side == Implementation::Side::still;
+    const RTCGeometry geometry =
+        rtcGetGeometry(is_still ? self.still.get() : self.world.get(), is_still ? instance_id : instance_id + 1);
+    // Embree reads masks as it traces: no BVH holds them, and none is committed for them.
+    rtcSetGeometryMask(geometry, visibility);
+    rtcCommitGeometry(geometry);
+    self.check();
 }
 
 void RayTracer::remove_instance(std::uint32_t instance_id) {
     auto& self = *implementation_;
-    self.placed.erase(instance_id);
-    self.detach(instance_id);
+    const auto found = self.placed.find(instance_id);
+    if (found == self.placed.end()) return;
+    self.detach(instance_id, found->second);
+    self.placed.erase(found);
     self.check();
     self.changed = true;
 }
@@ -305,26 +295,12 @@ void RayTracer::remove_instance(std::uint32_t instance_id) {
 void RayTracer::commit() {
     auto& self = *implementation_;
     if (!self.changed) return;
-    self.attach_waiting();
-    const auto has = [&](Implementation::Side side) {
-        return std::any_of(self.attached.begin(), self.attached.end(),
-                           [&](const auto& one) { return one.second == side; });
-    };
-    self.has_moving = has(Implementation::Side::moving);
+    self.attach_all();
     if (self.still_changed) {
-        rtcCommitScene(self.still.get());
-        if (self.has_still) rtcDetachGeometry(self.world.get(), still_id);
-        self.has_still = has(Implementation::Side::still);
-        if (self.has_still) {
-            const Owned<RTCGeometry> geometry(rtcNewGeometry(self.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-            rtcSetGeometryInstancedScene(geometry.get(), self.still.get());
-            set_transform(geometry.get(), {});
-            rtcSetGeometryMask(geometry.get(), visible_to_all);
-            rtcCommitGeometry(geometry.get());
-            rtcAttachGeometryByID(self.world.get(), geometry.get(), still_id);
-        }
+        self.build(self.still.get(), self.still_triangles());
+        rtcCommitGeometry(self.still_in_world.get());
     }
-    rtcCommitScene(self.world.get());
+    self.build(self.world.get(), 0);
     self.check();
     self.changed = self.still_changed = false;
 }
@@ -346,19 +322,18 @@ bool RayTracer::occluded(const Ray& ray) const {
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
-    const auto& self = *implementation_;
-    if (self.packet_width == 16)
-        return intersect_packets<RTCRay16, RTCRayHit16>(rtcIntersect16, self.traced(), rays, from, hits);
-    if (self.packet_width == 8)
-        return intersect_packets<RTCRay8, RTCRayHit8>(rtcIntersect8, self.traced(), rays, from, hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], from);
+    for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
+        const std::array<RayHit, batch_size> met = unpack<RayHitOf>(intersect(batch, from));
+        for (std::size_t i = 0; i < count; ++i)
+            hits[first + i] = met[i].instance == no_instance ? std::nullopt : std::optional(met[i]);
+    });
 }
 
 void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
-    const auto& self = *implementation_;
-    if (self.packet_width == 16) return occluded_packets<RTCRay16>(rtcOccluded16, self.traced(), rays, occluded_rays);
-    if (self.packet_width == 8) return occluded_packets<RTCRay8>(rtcOccluded8, self.traced(), rays, occluded_rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) occluded_rays[i] = occluded(rays[i]);
+    for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
+        const auto visible = store(visibility(batch));
+        for (std::size_t i = 0; i < count; ++i) occluded_rays[first + i] = visible[i] > 0.0f ? 0 : 1;
+    });
 }
 
 RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) const {

@@ -48,6 +48,8 @@ class RayTracer {
     void set_mesh(std::uint32_t mesh_id, const Mesh& mesh);
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
+    /// Who sees an instance; at once, and without a build.
+    void set_visibility(std::uint32_t instance_id, std::uint32_t visibility);
     void remove_instance(std::uint32_t instance_id);
     /// Builds what has changed. Throws std::bad_alloc, or std::runtime_error with Embree's message.
     void commit();
@@ -55,7 +57,7 @@ class RayTracer {
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const;
     bool occluded(const Ray& ray) const;
 
-    /// Many at once, in SIMD packets of neighbours in the span: up to 3 times the rate. hits: one per ray.
+    /// Many at once, in batches of neighbours in the span. hits: one per ray.
     void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
 
