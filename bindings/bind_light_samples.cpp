@@ -11,7 +11,7 @@
 namespace pivot::bindings {
 namespace {
 
-/// The scene made ready, and a vertex in it whose shading frame is the world's.
+/// The scene made ready by who holds it, and a vertex in it whose shading frame is the world's.
 Vertex vertex_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo) {
     scene.commit();
     if (!(wo[2] > 0.0f)) throw py::value_error("wo must be above the surface: z > 0");
@@ -37,6 +37,7 @@ BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
 py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                         const std::string& light_sampling, std::size_t light_samples, std::size_t count,
                         std::uint32_t seed) {
+    const SceneHold hold(scene);
     VertexOf<Batch> vertices = broadcast<VertexOf>(vertex_at(scene, material, position, wo));
     const BouncePlan plan = plan_with(scene, light_samples);
     const LightSampling strategy = light_sampling_from(light_sampling);
@@ -67,16 +68,18 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
 py::tuple light_densities(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                           const std::string& light_sampling, std::size_t light_samples, const FloatArray& wi) {
     require_shape(wi, "wi", {-1, 3});
+    const SceneHold hold(scene);
     const Vertex vertex = vertex_at(scene, material, position, wo);
     const BouncePlan plan = plan_with(scene, light_samples);
     const LightSampling strategy = light_sampling_from(light_sampling);
-    const py::ssize_t count = wi.shape(0), lights = static_cast<py::ssize_t>(scene.lights().size());
+    const py::ssize_t count = wi.shape(0);
+    const auto lights = static_cast<py::ssize_t>(scene.lamps().size() + scene.triangle_lights().size());
     py::array_t<float> pdf_omega({count, lights}), pdf_omega_bsdf(count), reflected({count, lights, py::ssize_t(3)});
     py::array_t<bool> shares(lights);
     std::fill_n(pdf_omega.mutable_data(), pdf_omega.size(), 0.0f);
     std::fill_n(reflected.mutable_data(), reflected.size(), 0.0f);
     for (py::ssize_t light = 0; light < lights; ++light) {
-        const Light& source = scene.lights()[static_cast<std::size_t>(light)];
+        const Light& source = scene.light(static_cast<std::size_t>(light));
         const LightSampler sampler(source, vertex.point, vertex.surface, strategy);
         const float expected = expected_samples(scene, plan, vertex, static_cast<std::size_t>(light));
         shares.mutable_at(light) = sampler.shares_with_bsdf();
@@ -97,6 +100,7 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
 py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
                            const FloatArray& u) {
     require_shape(u, "u", {-1});
+    const SceneHold hold(scene);
     const VertexBatch vertices(broadcast<VertexOf>(vertex_at(scene, material, position, wo)), batch_size);
     if (scene.lamps().empty()) throw py::value_error("the scene has no lamp to choose");
     py::array_t<std::int64_t> light(u.shape(0));
@@ -118,6 +122,7 @@ py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple&
 
 py::array_t<float> choice_probabilities(Scene& scene, const Material& material, const Triple& position,
                                         const Triple& wo) {
+    const SceneHold hold(scene);
     const Vertex vertex = vertex_at(scene, material, position, wo);
     py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lamps().size()));
     for (std::size_t light = 0; light < scene.lamps().size(); ++light) {
@@ -128,6 +133,7 @@ py::array_t<float> choice_probabilities(Scene& scene, const Material& material, 
 
 /// Each node as (child (n,), center (n, 3), radius_m (n,), radiance (n,), sun_versine (n,)).
 py::list light_tree(Scene& scene) {
+    const SceneHold hold(scene);
     scene.commit();
     py::list nodes;
     for (const LightTree::Node& node : scene.lamp_tree().nodes()) {

@@ -14,6 +14,7 @@ template <class Visit>
 void for_each_hit(Scene& scene, const FloatArray& origins, const FloatArray& directions, const Visit& visit) {
     require_shape(origins, "origins", {-1, 3});
     require_shape(directions, "directions", {origins.shape(0), 3});
+    const SceneHold hold(scene);
     scene.commit();
     scene.trace_bent_cones([] { return false; });
     const float *o = origins.data(), *d = directions.data();

@@ -31,6 +31,7 @@ void for_each_chunk(const FloatArray& origins, const FloatArray& directions, con
 }
 
 py::tuple intersect(Scene& scene, const FloatArray& origins, const FloatArray& directions, bool packets) {
+    const SceneHold hold(scene);
     scene.commit();
     const py::ssize_t count = origins.shape(0);
     py::array_t<float> distance_m(count);
@@ -59,6 +60,7 @@ py::tuple intersect(Scene& scene, const FloatArray& origins, const FloatArray& d
 py::array_t<bool> occluded(Scene& scene, const FloatArray& origins, const FloatArray& directions,
                            const FloatArray& far_m, bool packets) {
     require_shape(far_m, "far_m", {origins.shape(0)});
+    const SceneHold hold(scene);
     scene.commit();
     py::array_t<bool> result(origins.shape(0));
     bool* out = result.mutable_data();
@@ -81,7 +83,7 @@ void register_rays(py::module_& module) {
     scene.def(
         "intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("packets") = true,
         "Closest hits of rays (n, 3), unit directions: distance_m (n,), infinite where there is none; instance and "
-        "triangle (n,), -1 where there is none; barycentric (n, 2). The scene must not be being rendered.");
+        "triangle (n,), -1 where there is none; barycentric (n, 2).");
     scene.def("occluded", &occluded, py::arg("origins"), py::arg("directions"), py::arg("far_m"),
               py::arg("packets") = true, "Whether rays (n, 3) meet anything nearer than far_m (n,).");
 }

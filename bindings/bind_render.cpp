@@ -74,7 +74,8 @@ void register_render(py::module_& module) {
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended. "
         "bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.")
         .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
-        .def("start", &Session::start, "Starts the threads and returns at once.")
+        .def("start", &Session::start, py::call_guard<py::gil_scoped_release>(),
+             "Starts the threads and returns at once.")
         .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),
              "Whether the render has ended within the given time; raises what failed in it.")
         .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")

@@ -39,7 +39,8 @@ void set_triangles(Mesh& mesh, const IntArray& corner_vertices, const IntArray& 
 
 std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& positions, const IntArray& corner_vertices,
                        const IntArray& triangle_corners, const optional<FloatArray>& corner_normals,
-                       const optional<FloatArray>& corner_uvs, const optional<IntArray>& triangle_slots) {
+                       const optional<FloatArray>& vertex_normals, const optional<FloatArray>& corner_uvs,
+                       const optional<IntArray>& triangle_slots) {
     const string prefix = "mesh '" + name + "': ";
     require_shape(positions, prefix + "positions", {-1, 3});
     require_shape(corner_vertices, prefix + "corner_vertices", {-1});
@@ -51,6 +52,11 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
     if (corner_normals) {
         require_shape(*corner_normals, prefix + "corner_normals", {corners, 3});
         mesh.corner_normals = copy_rows<Vec3f>(*corner_normals);
+    }
+    if (vertex_normals) {
+        if (corner_normals) throw py::value_error(prefix + "give corner_normals or vertex_normals, not both");
+        require_shape(*vertex_normals, prefix + "vertex_normals", {positions.shape(0), 3});
+        mesh.vertex_normals = copy_rows<Vec3f>(*vertex_normals);
     }
     if (corner_uvs) {
         require_shape(*corner_uvs, prefix + "corner_uvs", {corners, 2});
@@ -66,18 +72,17 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
     return scene.add_mesh(std::move(mesh));
 }
 
+std::uint32_t visibility_of(bool camera_visible) { return camera_visible ? visible_to_all : visible_to_light; }
+
 std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh, const FloatArray& object_to_world,
                             const std::vector<std::uint32_t>& materials, bool camera_visible) {
     require_shape(object_to_world, "object '" + name + "': object_to_world", {-1, 4, 4});
     if (object_to_world.shape(0) == 0) throw py::value_error("object '" + name + "': object_to_world is empty");
-    const std::uint32_t visibility = camera_visible ? visible_to_all : visible_to_light;
-    std::uint32_t first = 0;
-    for (py::ssize_t i = 0; i < object_to_world.shape(0); ++i) {
-        const std::uint32_t id =
-            scene.add_instance({name, mesh, to_transform(object_to_world.data(i)), materials, visibility});
-        if (i == 0) first = id;
-    }
-    return first;
+    std::vector<Transform> transforms;
+    for (py::ssize_t i = 0; i < object_to_world.shape(0); ++i)
+        transforms.push_back(to_transform(object_to_world.data(i)));
+    const py::gil_scoped_release release;
+    return scene.add_instances({name, mesh, {}, materials, visibility_of(camera_visible)}, transforms);
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
@@ -171,10 +176,12 @@ void register_scene(py::module_& module) {
         "Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.")
         .def(py::init<>())
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("corner_vertices"),
-             py::arg("triangle_corners"), py::arg("corner_normals") = py::none(), py::arg("corner_uvs") = py::none(),
+             py::arg("triangle_corners"), py::arg("corner_normals") = py::none(),
+             py::arg("vertex_normals") = py::none(), py::arg("corner_uvs") = py::none(),
              py::arg("triangle_slots") = py::none(),
-             "positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or None for flat "
-             "shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the mesh's id.")
+             "positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals "
+             "(V, 3), without both flat shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the "
+             "mesh's id.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
              py::arg("materials"), py::arg("camera_visible") = true,
              "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. "
@@ -191,6 +198,14 @@ void register_scene(py::module_& module) {
                 scene.set_instance_transform(id, to_transform(object_to_world.data()));
             },
             py::arg("id"), py::arg("object_to_world"))
+        .def(
+            "set_instance_visibility",
+            [](Scene& scene, std::uint32_t id, bool camera_visible) {
+                scene.set_instance_visibility(id, visibility_of(camera_visible));
+            },
+            py::arg("id"), py::arg("camera_visible"))
+        .def("set_instance_materials", &Scene::set_instance_materials, py::arg("id"), py::arg("materials"),
+             "materials: as in add_instances.")
         .def("remove_instance", &Scene::remove_instance, py::arg("id"))
         .def("remove_light", &Scene::remove_light, py::arg("id"))
         .def(
@@ -201,8 +216,7 @@ void register_scene(py::module_& module) {
              py::arg("clip_end_m") = infinity,
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
              "frame "
-             "at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.")
-        .def_property_readonly("memory_bytes", &Scene::memory_bytes, "What geometry takes, estimated.");
+             "at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.");
 }
 
 }  // namespace pivot::bindings

@@ -63,9 +63,9 @@ Session::~Session() {
 
 void Session::start() {
     if (thread_.joinable()) throw std::logic_error("the session was started before");
-    scene_->hold();
+    auto hold = std::make_unique<SceneHold>(*scene_);
     start_time_ = std::chrono::steady_clock::now();
-    thread_ = std::thread([this] {
+    thread_ = std::thread([this, hold = std::move(hold)]() mutable {
         std::exception_ptr fault;
         try {
             tbb::task_arena arena(settings_.threads > 0 ? settings_.threads : tbb::task_arena::automatic);
@@ -73,7 +73,7 @@ void Session::start() {
         } catch (...) {
             fault = std::current_exception();
         }
-        scene_->release();
+        hold.reset();
         const std::lock_guard lock(mutex_);
         fault_ = fault;
         has_ended_ = true;

@@ -26,7 +26,7 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Throws std::logic_error when called twice.
+    /// Holds the scene until the render has ended. Throws std::logic_error when called twice.
     void start();
     /// Whether the render has ended within the given time. Throws what the render threw.
     bool wait(double seconds);

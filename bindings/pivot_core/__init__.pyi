@@ -152,11 +152,12 @@ class Scene:
         corner_vertices: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
         triangle_corners: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
         corner_normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        vertex_normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
         corner_uvs: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
         triangle_slots: typing.Annotated[numpy.typing.ArrayLike, numpy.int32] | None = None,
     ) -> int:
         """
-        positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or None for flat shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the mesh's id.
+        positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals (V, 3), without both flat shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the mesh's id.
         """
     def bent_cones(
         self,
@@ -197,7 +198,7 @@ class Scene:
         packets: bool = True,
     ) -> tuple:
         """
-        Closest hits of rays (n, 3), unit directions: distance_m (n,), infinite where there is none; instance and triangle (n,), -1 where there is none; barycentric (n, 2). The scene must not be being rendered.
+        Closest hits of rays (n, 3), unit directions: distance_m (n,), infinite where there is none; instance and triangle (n,), -1 where there is none; barycentric (n, 2).
         """
     def light_densities(
         self,
@@ -270,11 +271,20 @@ class Scene:
         """
         camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.
         """
+    def set_instance_materials(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        materials: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    ) -> None:
+        """
+        materials: as in add_instances.
+        """
     def set_instance_transform(
         self,
         id: typing.SupportsInt | typing.SupportsIndex,
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     ) -> None: ...
+    def set_instance_visibility(self, id: typing.SupportsInt | typing.SupportsIndex, camera_visible: bool) -> None: ...
     def set_light(
         self, id: typing.SupportsInt | typing.SupportsIndex, light: SphereLight | SpotLight | SunLight | AreaLight
     ) -> None: ...
@@ -285,11 +295,6 @@ class Scene:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
     ) -> None: ...
-    @property
-    def memory_bytes(self) -> int:
-        """
-        What geometry takes, estimated.
-        """
 
 class RenderSettings:
     """

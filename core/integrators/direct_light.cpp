@@ -53,7 +53,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     };
     for (std::size_t i = 0; i < batch_size; ++i) {
         if (i >= vertices.count() || !(picks.expected_samples[i] > 0.0f)) continue;
-        lights[i] = &scene.lights()[picks.light[i]];
+        lights[i] = &scene.light(picks.light[i]);
         is_area[i] = std::holds_alternative<AreaLight>(*lights[i]);
         left[i] = 1;
     }

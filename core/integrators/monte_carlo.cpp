@@ -60,7 +60,7 @@ Rgb lamps_met(const Work& work, std::span<const SharedLamp> lamps, const Vertex&
               float bsdf_pdf_omega, float distance_m) {
     Rgb radiance(0.0f);
     for (const auto& [index, expected] : lamps) {
-        const Light& lamp = work.scene.lights()[index];
+        const Light& lamp = work.scene.light(index);
         const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
@@ -76,7 +76,7 @@ Rgb emission_met(const Work& work, const BouncePlan& plan, const Vertex& vertex,
                  const RayHit& hit, const Rgb& emission) {
     const auto index = work.scene.light_of(hit);
     if (!index) return emission;
-    const Light& light = work.scene.lights()[*index];
+    const Light& light = work.scene.light(*index);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return emission;
     return emission * bsdf_weight(light, work.settings.light_sampling, vertex, *place,

@@ -31,10 +31,8 @@ std::array<Vec3f, ray_count> hemisphere_points() {
 
 Vec3f corner_normal(const Mesh& mesh, std::size_t triangle, int corner) {
     const Triangle& t = mesh.triangles[triangle];
-    if (!mesh.corner_normals.empty()) {
-        const Vec3f& n = mesh.corner_normals[mesh.triangle_corners[triangle][corner]];
-        if (length_squared(n) > 0.0f) return n;
-    }
+    const Vec3f given = mesh.normals(triangle)[static_cast<std::size_t>(corner)];
+    if (length_squared(given) > 0.0f) return given;
     const Vec3f n = cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
     return length_squared(n) > 0.0f ? normalize(n) : Vec3f(0.0f, 0.0f, 1.0f);
 }

@@ -36,6 +36,7 @@ struct LightReach {
     bool is_infinite = false;
 
     float from(const Vec3f& point) const;
+    bool operator==(const LightReach&) const = default;
 };
 
 /// Of one instance of a mesh.

@@ -1,6 +1,7 @@
 // A triangle mesh in object space, with data per face corner as Blender keeps it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,15 +18,19 @@ struct Mesh {
     std::vector<Vec3f> positions;
     std::vector<Triangle> triangles;            ///< vertex indices
     std::vector<Triangle> triangle_corners;     ///< corner indices; empty when no corner data is kept
-    std::vector<Vec3f> corner_normals;          ///< empty: flat shading
+    std::vector<Vec3f> corner_normals;          ///< empty: those of the vertices
+    std::vector<Vec3f> vertex_normals;          ///< empty: none; shading is flat where no corner has one either
     std::vector<Vec2f> corner_uvs;              ///< empty: none
     std::vector<std::uint16_t> triangle_slots;  ///< material slot; empty: all 0
 
     std::size_t vertex_count() const { return positions.size() - 1; }
-    std::size_t memory_bytes() const {
-        return positions.size() * sizeof(Vec3f) + (triangles.size() + triangle_corners.size()) * sizeof(Triangle) +
-               corner_normals.size() * sizeof(Vec3f) + corner_uvs.size() * sizeof(Vec2f) +
-               triangle_slots.size() * sizeof(std::uint16_t);
+    /// At a triangle's corners; 0: flat shading.
+    std::array<Vec3f, 3> normals(std::size_t triangle) const {
+        const bool of_corners = !corner_normals.empty();
+        const std::vector<Vec3f>& normals = of_corners ? corner_normals : vertex_normals;
+        if (normals.empty()) return {Vec3f(0.0f), Vec3f(0.0f), Vec3f(0.0f)};
+        const Triangle& at = (of_corners ? triangle_corners : triangles)[triangle];
+        return {normals[at.x], normals[at.y], normals[at.z]};
     }
 };
 

@@ -1,7 +1,9 @@
 #include "core/scene/scene.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace pivot {
 namespace {
@@ -34,9 +36,14 @@ void require_valid(const Mesh& mesh) {
     };
     check_indices(mesh.triangles, mesh.vertex_count(), "vertex");
     if (!mesh.corner_normals.empty()) check_indices(mesh.triangle_corners, mesh.corner_normals.size(), "corner");
-    for (std::size_t i = 0; i < mesh.corner_normals.size(); ++i) {
-        if (!is_finite(mesh.corner_normals[i])) fail("the normal of corner " + std::to_string(i) + " is not finite");
-    }
+    const auto check_normals = [&](const std::vector<Vec3f>& normals, const char* what) {
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            if (!is_finite(normals[i]))
+                fail("the normal of " + std::string(what) + " " + std::to_string(i) + " is not finite");
+        }
+    };
+    check_normals(mesh.corner_normals, "corner");
+    check_normals(mesh.vertex_normals, "vertex");
 }
 
 void require_valid(const std::string& name, const Material& material) {
@@ -72,20 +79,32 @@ T& at_present(std::vector<std::optional<T>>& items, std::uint32_t id, const char
 
 }  // namespace
 
-void Scene::begin_edit() {
+SceneHold::SceneHold(Scene& scene) : scene_(scene) {
+    const std::lock_guard lock(scene_.editing_);
+    ++scene_.holders_;
+}
+
+SceneHold::~SceneHold() {
+    const std::lock_guard lock(scene_.editing_);
+    --scene_.holders_;
+}
+
+std::unique_lock<std::mutex> Scene::begin_edit() {
+    std::unique_lock lock(editing_);
     if (holders_ > 0) throw std::logic_error("the scene is being rendered: wait for the session to end, then edit it");
     is_committed_ = false;
+    return lock;
 }
 
 std::optional<Light>& Scene::light_at(std::uint32_t id) {
-    NamedLight& named = at(lights_, id, "light");
+    NamedLight& named = at(added_lights_, id, "light");
     if (!named.light) throw std::invalid_argument("light '" + named.name + "' was removed");
     return named.light;
 }
 
 std::uint32_t Scene::add_mesh(Mesh mesh) {
-    begin_edit();
     require_valid(mesh);
+    const auto edit = begin_edit();
     const auto id = static_cast<std::uint32_t>(meshes_.size());
     meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
     ray_tracer_.set_mesh(id, *meshes_.back());
@@ -93,78 +112,112 @@ std::uint32_t Scene::add_mesh(Mesh mesh) {
 }
 
 std::uint32_t Scene::add_material(const std::string& name, const Material& material) {
-    begin_edit();
+    const auto edit = begin_edit();
     require_valid(name, material);
     materials_.push_back(material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
 }
 
-std::uint32_t Scene::add_instance(Instance instance) {
-    begin_edit();
-    bent_cones_.clear();
-    require_finite(instance.world_from_object, instance.name);
-    at(meshes_, instance.mesh, "mesh");
+void Scene::require_materials(const Instance& instance) const {
     if (instance.materials.empty()) throw std::invalid_argument("object '" + instance.name + "' has no material id");
     for (const std::uint32_t material : instance.materials) at(materials_, material, "material");
-    const auto id = static_cast<std::uint32_t>(instances_.size());
-    instance.normal_matrix = instance.world_from_object.normal_matrix();
-    ray_tracer_.set_instance(id, instance.mesh, instance.world_from_object, instance.visibility);
-    instances_.push_back(std::move(instance));
-    return id;
+}
+
+std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transform> world_from_objects) {
+    const auto edit = begin_edit();
+    for (const Transform& transform : world_from_objects) require_finite(transform, like.name);
+    at(meshes_, like.mesh, "mesh");
+    require_materials(like);
+    const auto first = static_cast<std::uint32_t>(instances_.size());
+    for (const Transform& transform : world_from_objects) {
+        ray_tracer_.set_instance(static_cast<std::uint32_t>(instances_.size()), like.mesh, transform, like.visibility);
+        Instance& instance = *instances_.emplace_back(like);
+        instance.world_from_object = transform;
+        instance.normal_matrix = transform.normal_matrix();
+    }
+    instance_lights_.resize(instances_.size());
+    bent_cones_.clear();
+    return first;
 }
 
 std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
-    begin_edit();
-    bent_cones_.clear();
-    lights_.push_back(NamedLight{name, light});
-    return static_cast<std::uint32_t>(lights_.size() - 1);
+    const auto edit = begin_edit();
+    added_lights_.push_back(NamedLight{name, light});
+    are_lamps_stale_ = true;
+    return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }
 
 void Scene::set_material(std::uint32_t id, const Material& material) {
-    begin_edit();
+    const auto edit = begin_edit();
     require_valid(std::to_string(id), material);
-    at(materials_, id, "material") = material;
+    Material& edited = at(materials_, id, "material");
+    const bool changes_lights = edited.emission != material.emission;
+    edited = material;
+    if (!changes_lights) return;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (instances_[i] && std::ranges::find(instances_[i]->materials, id) != instances_[i]->materials.end())
+            instance_lights_[i].is_stale = true;
+    }
 }
 
 void Scene::set_light(std::uint32_t id, const Light& light) {
-    begin_edit();
-    bent_cones_.clear();
+    const auto edit = begin_edit();
     light_at(id) = light;
+    are_lamps_stale_ = true;
 }
 
 void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from_object) {
-    begin_edit();
-    bent_cones_.clear();
+    const auto edit = begin_edit();
     Instance& instance = at_present(instances_, id, "instance");
     require_finite(world_from_object, instance.name);
     instance.world_from_object = world_from_object;
     instance.normal_matrix = world_from_object.normal_matrix();
     ray_tracer_.set_instance(id, instance.mesh, world_from_object, instance.visibility);
+    instance_lights_[id].is_stale = true;
+    bent_cones_.clear();
+}
+
+void Scene::set_instance_visibility(std::uint32_t id, std::uint32_t visibility) {
+    const auto edit = begin_edit();
+    const std::uint32_t before = std::exchange(at_present(instances_, id, "instance").visibility, visibility);
+    ray_tracer_.set_visibility(id, visibility);
+    if (((before ^ visibility) & visible_to_light) == 0) return;
+    instance_lights_[id].is_stale = true;
+    bent_cones_.clear();
+}
+
+void Scene::set_instance_materials(std::uint32_t id, const std::vector<std::uint32_t>& materials) {
+    const auto edit = begin_edit();
+    Instance edited = at_present(instances_, id, "instance");
+    edited.materials = materials;
+    require_materials(edited);
+    instances_[id] = std::move(edited);
+    instance_lights_[id].is_stale = true;
 }
 
 void Scene::remove_instance(std::uint32_t id) {
-    begin_edit();
-    bent_cones_.clear();
+    const auto edit = begin_edit();
     at_present(instances_, id, "instance");
     instances_[id].reset();
     ray_tracer_.remove_instance(id);
+    instance_lights_[id].is_stale = true;
+    bent_cones_.clear();
 }
 
 void Scene::remove_light(std::uint32_t id) {
-    begin_edit();
-    bent_cones_.clear();
+    const auto edit = begin_edit();
     light_at(id).reset();
+    are_lamps_stale_ = true;
 }
 
 void Scene::set_world(const Rgb& radiance) {
-    begin_edit();
-    bent_cones_.clear();
+    const auto edit = begin_edit();
     if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
     world_ = radiance;
 }
 
 void Scene::set_camera(const Camera& camera) {
-    begin_edit();
+    const auto edit = begin_edit();
     require_finite(camera.world_from_camera, "camera");
     const Window& w = camera.window;
     if (camera.width < 1 || camera.height < 1)
@@ -184,24 +237,51 @@ void Scene::commit() {
     if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     ray_tracer_.commit();
-    active_lights_.clear();
-    for (const NamedLight& named : lights_) {
-        if (named.light) active_lights_.push_back(*named.light);
-    }
-    lamp_count_ = active_lights_.size();
-    has_unsampled_light_ = has_world();
-    triangle_lights_.assign(instances_.size(), {});
-    for (std::size_t i = 0; i < instances_.size(); ++i) {
-        if (!instances_[i]) continue;
-        const auto& materials = instances_[i]->materials;
-        const auto is_emissive = [&](std::uint32_t material) { return materials_[material].is_emissive(); };
-        if (std::none_of(materials.begin(), materials.end(), is_emissive)) continue;
-        has_unsampled_light_ = true;
-        add_triangle_lights(*instances_[i], triangle_lights_[i]);
-    }
-    lamp_tree_ = LightTree(lamps());
-    triangle_tree_ = LightTree(triangle_lights());
+    commit_lamps();
+    commit_triangle_lights();
     is_committed_ = true;
+}
+
+void Scene::commit_lamps() {
+    if (!are_lamps_stale_) return;
+    lamps_.clear();
+    for (const NamedLight& named : added_lights_) {
+        if (named.light) lamps_.push_back(*named.light);
+    }
+    lamp_tree_ = LightTree(lamps_);
+    are_lamps_stale_ = false;
+}
+
+void Scene::commit_triangle_lights() {
+    bool changes = false;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        InstanceLights& own = instance_lights_[i];
+        own.is_stale = own.is_stale && (own.count > 0 || shines(i));
+        changes = changes || own.is_stale;
+    }
+    if (!changes) return;
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        InstanceLights& own = instance_lights_[i];
+        const std::size_t first = lights.size();
+        if (own.is_stale) {
+            own = shines(i) ? append_triangle_lights(*instances_[i], lights) : InstanceLights{};
+        } else {
+            const auto begin = triangle_lights_.begin() + static_cast<std::ptrdiff_t>(own.first);
+            lights.insert(lights.end(), begin, begin + static_cast<std::ptrdiff_t>(own.count));
+        }
+        own.is_stale = false;
+        own.first = first;
+        own.count = lights.size() - first;
+    }
+    triangle_lights_ = std::move(lights);
+    triangle_tree_ = LightTree(triangle_lights_);
+}
+
+bool Scene::shines(std::size_t instance) const {
+    const auto& present = instances_[instance];
+    if (!present || (present->visibility & visible_to_light) == 0) return false;
+    return std::ranges::any_of(present->materials, [&](std::uint32_t id) { return materials_[id].is_emissive(); });
 }
 
 std::uint32_t Scene::material_of(const RayHit& hit) const {
@@ -214,10 +294,11 @@ std::uint32_t Scene::material_of(const Instance& instance, std::uint32_t triangl
     return instance.materials[std::min(slot, instance.materials.size() - 1)];
 }
 
-void Scene::add_triangle_lights(const Instance& instance, std::vector<std::uint32_t>& light_of_triangle) {
-    if ((instance.visibility & visible_to_light) == 0) return;
+Scene::InstanceLights Scene::append_triangle_lights(const Instance& instance, std::vector<Light>& lights) const {
     const Mesh& mesh = *meshes_[instance.mesh];
-    light_of_triangle.assign(mesh.triangles.size(), no_light);
+    const std::size_t first = lights.size();
+    InstanceLights own;
+    own.light_of_triangle.assign(mesh.triangles.size(), no_light);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Material& material = materials_[material_of(instance, i)];
         if (!material.is_emissive()) continue;
@@ -225,15 +306,27 @@ void Scene::add_triangle_lights(const Instance& instance, std::vector<std::uint3
         const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
         const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, material.emission);
         if (!light) continue;
-        light_of_triangle[i] = static_cast<std::uint32_t>(active_lights_.size());
-        active_lights_.push_back(*light);
+        own.light_of_triangle[i] = static_cast<std::uint32_t>(lights.size() - first);
+        lights.push_back(*light);
     }
+    return own;
 }
 
 std::optional<std::size_t> Scene::light_of(const RayHit& hit) const {
-    const auto& lights = triangle_lights_[hit.instance];
-    if (lights.empty() || lights[hit.triangle] == no_light) return std::nullopt;
-    return lights[hit.triangle];
+    const InstanceLights& own = instance_lights_[hit.instance];
+    if (own.light_of_triangle.empty() || own.light_of_triangle[hit.triangle] == no_light) return std::nullopt;
+    return lamps_.size() + own.first + own.light_of_triangle[hit.triangle];
+}
+
+LightReach Scene::light_reach() const {
+    LightReach reach{.positions = {}, .is_infinite = has_world()};
+    for (const Light& light : lamps_) {
+        if (const auto* sphere = std::get_if<SphereLight>(&light)) reach.positions.push_back(sphere->center);
+        if (const auto* spot = std::get_if<SpotLight>(&light)) reach.positions.push_back(spot->sphere.center);
+        if (const auto* area = std::get_if<AreaLight>(&light)) reach.positions.push_back(area->center);
+        reach.is_infinite = reach.is_infinite || std::holds_alternative<SunLight>(light);
+    }
+    return reach;
 }
 
 void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
@@ -242,14 +335,8 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
         if (should_stop()) return;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    if (!bent_cones_.empty()) return;
-    LightReach reach{.positions = {}, .is_infinite = has_world()};
-    for (const Light& light : lamps()) {
-        if (const auto* sphere = std::get_if<SphereLight>(&light)) reach.positions.push_back(sphere->center);
-        if (const auto* spot = std::get_if<SpotLight>(&light)) reach.positions.push_back(spot->sphere.center);
-        if (const auto* area = std::get_if<AreaLight>(&light)) reach.positions.push_back(area->center);
-        reach.is_infinite = reach.is_infinite || std::holds_alternative<SunLight>(light);
-    }
+    LightReach reach = light_reach();
+    if (!bent_cones_.empty() && reach == bent_cone_reach_) return;
     std::vector<std::shared_ptr<const BentConeSites>> sites(meshes_.size());
     std::vector<std::optional<BentCones>> cones(instances_.size());
     for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -261,34 +348,22 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
         if (should_stop()) return;
     }
     bent_cones_ = std::move(cones);
-}
-
-std::size_t Scene::memory_bytes() const {
-    std::size_t bytes = instances_.size() * sizeof(Instance);
-    // Embree keeps about 60 bytes a triangle of its own.
-    for (const auto& mesh : meshes_) bytes += mesh->memory_bytes() + 60 * mesh->triangles.size();
-    return bytes;
+    bent_cone_reach_ = std::move(reach);
 }
 
 HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
     const Instance& instance = *instances_[hit.instance];
     const Mesh& mesh = *meshes_[instance.mesh];
     const Triangle& t = mesh.triangles[hit.triangle];
-    HitTriangleOf<float> triangle{.corner_a = mesh.positions[t.x],
-                                  .corner_b = mesh.positions[t.y],
-                                  .corner_c = mesh.positions[t.z],
-                                  .normal_a = Vec3f(0.0f),
-                                  .normal_b = Vec3f(0.0f),
-                                  .normal_c = Vec3f(0.0f),
-                                  .world_from_object = instance.world_from_object,
-                                  .normal_matrix = instance.normal_matrix};
-    if (!mesh.corner_normals.empty()) {
-        const Triangle& corner = mesh.triangle_corners[hit.triangle];
-        triangle.normal_a = mesh.corner_normals[corner.x];
-        triangle.normal_b = mesh.corner_normals[corner.y];
-        triangle.normal_c = mesh.corner_normals[corner.z];
-    }
-    return triangle;
+    const std::array<Vec3f, 3> normals = mesh.normals(hit.triangle);
+    return {.corner_a = mesh.positions[t.x],
+            .corner_b = mesh.positions[t.y],
+            .corner_c = mesh.positions[t.z],
+            .normal_a = normals[0],
+            .normal_b = normals[1],
+            .normal_c = normals[2],
+            .world_from_object = instance.world_from_object,
+            .normal_matrix = instance.normal_matrix};
 }
 
 }  // namespace pivot

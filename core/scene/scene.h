@@ -1,8 +1,8 @@
 // The scene as it is edited: meshes, instances, materials, lights, world, camera. Bad input throws
-// std::invalid_argument that names the thing. Ids are small integers and stay valid until removed.
+// std::invalid_argument that names the thing. Ids are small integers and stay valid until removed. An edit that throws
+// has changed nothing; while a SceneHold lives every edit throws std::logic_error.
 #pragma once
 
-#include <atomic>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -32,44 +32,44 @@ class Scene {
    public:
     std::uint32_t add_mesh(Mesh mesh);
     std::uint32_t add_material(const std::string& name, const Material& material);
-    std::uint32_t add_instance(Instance instance);
+    /// An instance for each transform, else like the one given. Returns the first of their ids, which are consecutive.
+    std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects);
     std::uint32_t add_light(const std::string& name, const Light& light);
     void set_material(std::uint32_t id, const Material& material);
     void set_light(std::uint32_t id, const Light& light);
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
+    void set_instance_visibility(std::uint32_t id, std::uint32_t visibility);
+    void set_instance_materials(std::uint32_t id, const std::vector<std::uint32_t>& materials);
     void remove_instance(std::uint32_t id);
     void remove_light(std::uint32_t id);
     void set_world(const Rgb& radiance);
     void set_camera(const Camera& camera);
 
-    /// Makes the scene ready for rays after edits. Of several renders that start together one does it, the others wait.
-    /// Throws std::invalid_argument without a camera.
+    /// Makes the scene ready for rays, to be called by who holds it. What no edit has touched stays as it is. Of
+    /// several that start together one does it, the others wait. Throws std::invalid_argument without a camera.
     void commit();
-    /// Traces the bent cones of all vertices where an edit has changed what they see; after commit(), and shared as it
-    /// is. None are there once should_stop has returned true.
+    /// Traces the bent cones of all vertices if an edit has changed what any of them sees; after commit(), and shared
+    /// as it is. None are there once should_stop has returned true.
     void trace_bent_cones(const std::function<bool()>& should_stop);
-
-    /// While a render holds the scene, every edit throws std::logic_error. Renders that hold it may share it.
-    void hold() { ++holders_; }
-    void release() { --holders_; }
 
     const Camera& camera() const { return camera_; }
     const Rgb& world() const { return world_; }
     bool has_world() const { return max_component(abs(world_)) > 0.0f; }
-    /// Every light there is: those that were added, in that order, then the emissive triangles.
-    std::span<const Light> lights() const { return active_lights_; }
-    /// Those that were added.
-    std::span<const Light> lamps() const { return lights().first(lamp_count_); }
-    std::span<const Light> triangle_lights() const { return lights().subspan(lamp_count_); }
-    /// The light that a triangle is; nothing where it does not shine or is too small to be sampled.
+    /// The lights that were added, in that order.
+    std::span<const Light> lamps() const { return lamps_; }
+    std::span<const Light> triangle_lights() const { return triangle_lights_; }
+    /// Every light by its place: the lamps, then the triangles.
+    const Light& light(std::size_t place) const {
+        return place < lamps_.size() ? lamps_[place] : triangle_lights_[place - lamps_.size()];
+    }
+    /// The place of the light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
     /// Of the lamps, and of the triangles.
     const LightTree& lamp_tree() const { return lamp_tree_; }
     const LightTree& triangle_tree() const { return triangle_tree_; }
     /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
-    bool has_unsampled_light() const { return has_unsampled_light_; }
+    bool has_unsampled_light() const { return has_world() || !triangle_lights_.empty(); }
     const std::string& instance_name(std::uint32_t id) const { return instances_[id]->name; }
-    std::size_t memory_bytes() const;
 
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const { return ray_tracer_.intersect(ray, from); }
     bool occluded(const Ray& ray) const { return ray_tracer_.occluded(ray); }
@@ -97,28 +97,54 @@ class Scene {
     }
 
    private:
-    /// Throws std::logic_error while the scene is held.
-    void begin_edit();
+    friend class SceneHold;
+    /// The triangles of an instance that shine: a part of triangle_lights_.
+    struct InstanceLights {
+        bool is_stale = true;  ///< by an edit since the last commit
+        std::size_t first = 0, count = 0;
+        std::vector<std::uint32_t> light_of_triangle;  ///< counted from `first`; empty: none shines
+    };
+
+    /// Nobody may hold the scene while the lock lives. Throws std::logic_error where somebody does.
+    [[nodiscard]] std::unique_lock<std::mutex> begin_edit();
     std::optional<Light>& light_at(std::uint32_t id);
-    void add_triangle_lights(const Instance& instance, std::vector<std::uint32_t>& light_of_triangle);
+    void require_materials(const Instance& instance) const;
+    void commit_lamps();
+    void commit_triangle_lights();
+    bool shines(std::size_t instance) const;
+    InstanceLights append_triangle_lights(const Instance& instance, std::vector<Light>& lights) const;
     std::uint32_t material_of(const Instance& instance, std::uint32_t triangle) const;
+    LightReach light_reach() const;
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
     std::vector<Material> materials_;
     std::vector<std::optional<Instance>> instances_;
-    std::vector<NamedLight> lights_;
-    std::vector<Light> active_lights_;
-    std::size_t lamp_count_ = 0;
-    std::vector<std::vector<std::uint32_t>> triangle_lights_;  ///< by instance and triangle; empty: none shines
+    std::vector<NamedLight> added_lights_;
+    bool are_lamps_stale_ = false;
+    std::vector<Light> lamps_, triangle_lights_;
     LightTree lamp_tree_, triangle_tree_;
+    std::vector<InstanceLights> instance_lights_;       ///< of each instance
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
+    LightReach bent_cone_reach_;                        ///< that these were traced with
     Rgb world_{0.0f};
     Camera camera_;
-    bool has_unsampled_light_ = false;
     RayTracer ray_tracer_;
-    std::atomic<int> holders_{0};
+    std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
+    int holders_ = 0;
     std::mutex committing_, tracing_bent_cones_;
     bool is_committed_ = false;
+};
+
+/// A share in a scene that is to be read: while one lives, every edit throws. It waits for an edit that has begun.
+class SceneHold {
+   public:
+    explicit SceneHold(Scene& scene);
+    ~SceneHold();
+    SceneHold(const SceneHold&) = delete;
+    SceneHold& operator=(const SceneHold&) = delete;
+
+   private:
+    Scene& scene_;
 };
 
 }  // namespace pivot
