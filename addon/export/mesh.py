@@ -23,7 +23,8 @@ class MeshArrays:
     positions: NDArray[np.float32]  # (V, 3)
     corner_vertices: NDArray[np.int32]  # (C,)
     triangle_corners: NDArray[np.int32]  # (T, 3)
-    corner_normals: NDArray[np.float32]  # (C, 3), unit
+    corner_normals: NDArray[np.float32] | None  # (C, 3), unit
+    vertex_normals: NDArray[np.float32] | None  # (V, 3), unit, where no corner has its own; without both: flat
     corner_uvs: NDArray[np.float32] | None  # (C, 2)
     triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
 
@@ -49,15 +50,16 @@ def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays | None:
         mesh.calc_loop_triangles()
     if not len(mesh.loop_triangles):
         return None
-    corners, polygons = _triangles(mesh)
+    domain = _normals_domain(mesh)
     slots = _polygon_slots(mesh)
     return MeshArrays(
         positions=_positions(mesh),
         corner_vertices=_corner_vertices(mesh),
-        triangle_corners=corners,
-        corner_normals=_corner_normals(mesh),
+        triangle_corners=_triangle_corners(mesh),
+        corner_normals=_corner_normals(mesh) if domain == "CORNER" else None,
+        vertex_normals=_read(mesh.vertex_normals, "vector", np.float32, 3) if domain == "POINT" else None,
         corner_uvs=_corner_uvs(mesh),
-        triangle_slots=None if slots is None else slots[polygons],
+        triangle_slots=None if slots is None else slots[_triangle_polygons(mesh)],
     )
 
 
@@ -67,8 +69,8 @@ def _read(collection: Any, attribute: str, dtype: DTypeLike, width: int = 1) -> 
     return values.reshape(-1, width) if width > 1 else values
 
 
-def _triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """(T, 3) corners and (T,) polygons, read where Blender keeps them: foreach_get takes 0.15 s a million.
+def _triangle_corners(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """(T, 3), read where Blender keeps them: foreach_get takes 0.15 s a million.
 
     Blender keeps three corners a triangle, before 4.1 followed by the polygon. The layout is no promise, so the first,
     middle and last triangle are compared with what RNA says, and foreach_get is used should they differ.
@@ -79,11 +81,14 @@ def _triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int3
     address = triangles[0].as_pointer()
     block = np.ctypeslib.as_array((ctypes.c_int32 * (count * stride)).from_address(address)).reshape(count, stride)
     if all(tuple(block[i, :3]) == tuple(triangles[i].loops) for i in (0, count // 2, count - 1)):
-        corners = np.array(block[:, :3])
-    else:
-        corners = _read(triangles, "loops", np.int32, 3)
-    polygons = _read(mesh.loop_triangle_polygons, "value", np.int32) if _LAZY else block[:, 3].copy()
-    return corners, polygons
+        return np.array(block[:, :3])
+    return _read(triangles, "loops", np.int32, 3)
+
+
+def _triangle_polygons(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    if _LAZY:
+        return _read(mesh.loop_triangle_polygons, "value", np.int32)
+    return _read(mesh.loop_triangles, "polygon_index", np.int32)
 
 
 def _positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
@@ -98,6 +103,11 @@ def _corner_vertices(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     if attribute is not None:
         return _read(attribute.data, "value", np.int32)
     return _read(mesh.loops, "vertex_index", np.int32)
+
+
+def _normals_domain(mesh: bpy.types.Mesh) -> str:
+    """POINT: all corners at a vertex share its normal, a quarter of the memory; FACE: all is flat; else CORNER."""
+    return mesh.normals_domain if _LAZY else "CORNER"
 
 
 def _corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:

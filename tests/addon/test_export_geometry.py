@@ -41,6 +41,9 @@ def test_arrays_of_an_evaluated_mesh(cases: Any) -> None:
 )
 def test_corner_normals(cases: Any, kind: str, at_edge: tuple[float, float, float]) -> None:
     """at_edge: where the prism's first face meets the second."""
+    if cases["normals"][kind] is None:  # Blender 4.1 and later tell that every face is flat
+        assert kind == "flat"
+        return
     normals = np.array(cases["normals"][kind])
     np.testing.assert_allclose(normals[[0, 3]], [(0, 0, 1)] * 2, atol=1e-3)
     np.testing.assert_allclose(normals[[1, 2]], [at_edge] * 2, atol=1e-3)

@@ -20,12 +20,12 @@ SIDE = 709  # vertices along an edge of the grid: 2 (SIDE - 1)^2 triangles
 RUNS = 5
 
 
-def rolling_grid() -> bpy.types.Object:
-    """A smooth, wavy square of a million triangles, with a UV map, as the scene's only mesh."""
+def rolling_grid(side: int) -> bpy.types.Object:
+    """A smooth, wavy square of side x side vertices, with a UV map, as the scene's only mesh."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    x, y = np.meshgrid(np.linspace(0, 1, SIDE), np.linspace(0, 1, SIDE))
+    x, y = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side))
     positions = np.stack([x, y, 0.1 * np.sin(9 * x) * np.cos(7 * y)], axis=-1)
-    vertex = np.arange(SIDE * SIDE, dtype=np.int32).reshape(SIDE, SIDE)
+    vertex = np.arange(side * side, dtype=np.int32).reshape(side, side)
     quads = np.stack([vertex[:-1, :-1], vertex[:-1, 1:], vertex[1:, 1:], vertex[1:, :-1]], axis=-1).reshape(-1, 4)
     mesh = bpy.data.meshes.new("grid")
     mesh.vertices.add(positions.size // 3)
@@ -51,7 +51,7 @@ def cpu_s(work: Callable[[], object]) -> float:
 
 
 def main() -> None:
-    grid = rolling_grid()
+    grid = rolling_grid(SIDE)
     addon_utils.enable("pivot")
     core = importlib.import_module("pivot.core").load()
     mesh = importlib.import_module("pivot.export.mesh")

@@ -10,7 +10,8 @@ import parts
 from geometry_cases import cubes_on_points
 from recording import record
 
-ARRAYS = ("positions", "corner_vertices", "triangle_corners", "corner_normals", "corner_uvs", "triangle_slots")
+NORMALS = ("corner_normals", "vertex_normals")
+ARRAYS = ("positions", "corner_vertices", "triangle_corners", *NORMALS, "corner_uvs", "triangle_slots")
 
 
 def main(folder: Path) -> Any:

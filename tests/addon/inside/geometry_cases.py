@@ -63,7 +63,7 @@ def _arrays() -> Any:
 
 
 def _normals(kind: str) -> Any:
-    """(8, 3) corner normals of the prism, the corner of the first face first."""
+    """(8, 3) normals at the prism's corners, those of the first face first. None: flat shading."""
     parts.clear()
     parts.camera()
     mesh = _mesh(kind)
@@ -78,7 +78,12 @@ def _normals(kind: str) -> Any:
             mesh.use_auto_smooth = True
         mesh.normals_split_custom_set([(0, 0.6, 0.8)] * 8)
     parts.link(kind, mesh)
-    return record().meshes[0].corner_normals.tolist()
+    exported = record().meshes[0]
+    if exported.corner_normals is not None:
+        return exported.corner_normals.tolist()
+    if exported.vertex_normals is not None:
+        return exported.vertex_normals[exported.corner_vertices].tolist()
+    return None
 
 
 def _instances() -> Any:

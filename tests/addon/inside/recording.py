@@ -120,6 +120,7 @@ class Scene:
         corner_vertices: Any,
         triangle_corners: Any,
         corner_normals: Any = None,
+        vertex_normals: Any = None,
         corner_uvs: Any = None,
         triangle_slots: Any = None,
     ) -> int:
