@@ -27,23 +27,24 @@ DEEPEST = 6
 ATTEMPTS = 20
 TOLERANCE = 0.02
 FLOOR = 1e-3
-STEADY = 0.97  # the least share of its pixels that a graph keeps when each is sampled a hundredth of a pixel aside
+ASIDE_PX = 0.01
+STEADY = 0.97  # the least share of its pixels that a graph keeps when all are sampled aside
 
 Picture = NDArray[np.float32]
 
 
-def render(engine: str, seed: int = 0) -> Picture:
-    """(height, width, 3) radiance at the pixels' centres, one sample each."""
+def render(engine: str, aside_px: float = 0.0) -> Picture:
+    """(height, width, 3) radiance at the pixels' centres or aside, one sample each."""
     scene = bpy.context.scene
     scene.render.engine = engine
+    scene.camera.data.shift_x = scene.camera.data.shift_y = aside_px / node_graph_scene.SIZE_PX
     if engine == "CYCLES":
         settings: Any = scene.cycles
         settings.device = "CPU"
-        settings.samples, settings.max_bounces, settings.seed = 1, 0, seed
+        settings.samples, settings.max_bounces = 1, 0  # the first sample is at the centre
         settings.use_adaptive_sampling = settings.use_denoising = False
-        settings.pixel_filter_type, settings.filter_width = "GAUSSIAN", 0.01  # its box is a pixel wide, always
     else:
-        scene.pivot.samples, scene.pivot.max_bounces, scene.pivot.seed = 1, 0, seed
+        scene.pivot.samples, scene.pivot.max_bounces = 1, 0
         scene.render.filter_size = 0.01
     image = scene.render.image_settings
     if bpy.app.version >= (5, 0):
@@ -83,7 +84,7 @@ def make(job: dict[str, Any], graph: dict[str, Any]) -> tuple[Maker, Picture, in
         cycles = render("CYCLES")
         finite = np.isfinite(cycles).all(axis=-1)
         varies = finite.any() and np.ptp(cycles[finite], axis=0).max() > 10 * FLOOR
-        if finite.any() and (varies or graph["kind"]) and agreement(cycles, render("CYCLES", seed=1)) >= STEADY:
+        if finite.any() and (varies or graph["kind"]) and agreement(cycles, render("CYCLES", ASIDE_PX)) >= STEADY:
             return maker, cycles, attempt + 1
     raise RuntimeError(f"no graph of {graph['kind'] or job['allowed']} shows a steady picture that varies")
 
@@ -99,7 +100,7 @@ def compare(job: dict[str, Any], graph: dict[str, Any]) -> dict[str, Any]:
     row = graph | {"kinds": sorted(maker.kinds), "settings": maker.settings, "attempts": attempts}
     row["constant"] = bool(np.ptp(cycles, axis=(0, 1)).max() <= FLOOR)
     try:
-        other = render(job["peer"], seed=2)
+        other = render(job["peer"], -ASIDE_PX if job["peer"] == "CYCLES" else 0.0)
     except RuntimeError as error:
         return row | {"fault": str(error).strip()}
     row["agreement"] = agreement(cycles, other)
