@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import node_graph_scene
+from blender_render import render_picture
 from node_graph_maker import Maker
 
 DEEPEST = 6
@@ -46,18 +47,7 @@ def render(engine: str, aside_px: float = 0.0) -> Picture:
     else:
         scene.pivot.samples, scene.pivot.max_bounces = 1, 0
         scene.render.filter_size = 0.01
-    image = scene.render.image_settings
-    if bpy.app.version >= (5, 0):
-        image.media_type = "IMAGE"
-    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
-    path = Path(bpy.app.tempdir) / "picture.exr"
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
-    picture = bpy.data.images.load(str(path))
-    pixels = np.empty(scene.render.resolution_y * scene.render.resolution_x * 4, np.float32)
-    picture.pixels.foreach_get(pixels)
-    bpy.data.images.remove(picture)
-    return pixels.reshape(scene.render.resolution_y, scene.render.resolution_x, 4)[..., :3]
+    return render_picture()
 
 
 def agreement(cycles: Picture, other: Picture) -> float:
