@@ -18,14 +18,14 @@ TYPES = ("VALUE", "INT", "VECTOR", "RGBA")
 
 
 class Maker:
-    """Fills a tree. allowed: the kinds to draw from. kinds: those drawn. settings: a line about each node."""
+    """Fills a tree. allowed: the kinds to draw from. kinds: those drawn. settings: a line about each node, by name."""
 
     def __init__(self, tree: Any, rng: random.Random, allowed: list[str]) -> None:
         self.tree = tree
         self.rng = rng
         self.allowed = [kind for kind in allowed if hasattr(bpy.types, f"ShaderNode{kind}")]
         self.kinds: set[str] = set()
-        self.settings: list[str] = []
+        self.settings: dict[str, str] = {}
         self._outputs: list[Any] = []  # that a later link may share
         self._may_group = set(kinds.OPERATIONS) & set(allowed) == set(kinds.OPERATIONS)
 
@@ -59,7 +59,7 @@ class Maker:
         self._draw_data(kind, node)
         for socket in usable(node.inputs):
             self._draw_value(kind, socket)
-        self.settings.append(" ".join([kind, *said]))
+        self.settings[node.name] = " ".join([kind, *said])
         return node
 
     def scaled(self, kind: str, target: Any) -> Any:
@@ -82,7 +82,6 @@ class Maker:
 
     def single(self, target: Any, kind: str, variant: int) -> None:
         """Feed an input by one node, whose own inputs are constants or coordinates of the plane."""
-        line = len(self.settings)
         node = self.node(kind, variant)
         inputs = list(usable(node.inputs))
         if inputs and self.rng.random() > UNLINKED:
@@ -97,15 +96,14 @@ class Maker:
                     self.tree.links.new(source, axes.inputs[0])
                     source = axes.outputs[number % 2]
                 self.tree.links.new(source, self.scaled(kind, socket))
-            self.settings[line] += f" of {', '.join(socket.name for socket in linked)}"
+            self.settings[node.name] += f" of {', '.join(socket.name for socket in linked)}"
         outputs = list(usable(node.outputs))
         output = outputs[variant % len(outputs)] if kind in kinds.SOURCES else self.rng.choice(outputs)
         self.tree.links.new(output, target)
-        self.settings[line] += f" -> {output.name}"
+        self.settings[node.name] += f" -> {output.name}"
 
     def _linked_node(self, kind: str, depth: int) -> Any:
         """The output to use of a node with subtrees at its inputs."""
-        line = len(self.settings)
         node = self.node(kind)
         inputs = list(usable(node.inputs))
         self.rng.shuffle(inputs)
@@ -115,9 +113,9 @@ class Maker:
         if depth > 1 and self.rng.random() < 0.04:
             node.mute = True
             self.kinds.add(kinds.MUTED)
-            self.settings[line] += f" {kinds.MUTED}"
+            self.settings[node.name] += f" {kinds.MUTED}"
         output = self.rng.choice(list(usable(node.outputs)))
-        self.settings[line] += f" -> {output.name}"
+        self.settings[node.name] += f" -> {output.name}"
         self._outputs.append(output)
         return output
 
@@ -139,8 +137,8 @@ class Maker:
         end = tree.nodes.new("NodeGroupOutput")
         inner.feed(end.inputs[0], depth - 1)
         self.kinds |= inner.kinds | {kinds.GROUP}
-        self.settings += inner.settings
         node = self.tree.nodes.new("ShaderNodeGroup")
+        self.settings |= {f"{node.name} / {name}": line for name, line in inner.settings.items()}
         node.node_tree = tree
         for socket in usable(node.inputs):
             self._draw_value(kinds.GROUP, socket)

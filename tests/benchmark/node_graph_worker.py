@@ -87,19 +87,50 @@ def compare(job: dict[str, Any], graph: dict[str, Any]) -> dict[str, Any]:
         maker, cycles, attempts = make(job, graph)
     except RuntimeError as error:
         return graph | {"fault": str(error)}
-    row = graph | {"kinds": sorted(maker.kinds), "settings": maker.settings, "attempts": attempts}
+    row = graph | {"kinds": sorted(maker.kinds), "settings": list(maker.settings.values()), "attempts": attempts}
     row["constant"] = bool(np.ptp(cycles, axis=(0, 1)).max() <= FLOOR)
+    other = np.full_like(cycles, np.inf)
     try:
         other = render(job["peer"], -ASIDE_PX if job["peer"] == "CYCLES" else 0.0)
     except RuntimeError as error:
-        return row | {"fault": str(error).strip()}
+        row["fault"] = str(error).strip()
     row["agreement"] = agreement(cycles, other)
-    if job["keep"] and row["agreement"] < job["least"]:
+    if row["agreement"] >= job["least"]:
+        return row
+    if job["keep"]:
         stem = f"{graph['index']:04}" + (f"_{graph['kind']}" if graph["kind"] else "")
         file = Path(job["keep"]) / stem
         np.savez(file.with_suffix(".npz"), cycles=cycles, other=other)
         bpy.ops.wm.save_as_mainfile(filepath=str(file.with_suffix(".blend")), copy=True)
-    return row
+    return row | {"culprit": culprit(maker, job)}
+
+
+def culprit(maker: Maker, job: dict[str, Any]) -> str:
+    """The first node, inputs before what they feed, whose own output fails where it colours the plane; "" for none."""
+    emission = next(node for node in maker.tree.nodes if node.type == "EMISSION")
+    first = emission.inputs["Color"].links[0].from_socket
+    ordered: dict[Any, Any] = {}  # the output to look at, by node
+
+    def visit(output: Any) -> None:
+        if output.node not in ordered:
+            for socket in output.node.inputs:
+                for link in socket.links:
+                    visit(link.from_socket)
+            ordered[output.node] = output
+
+    visit(first)
+    for node, output in ordered.items():
+        maker.tree.links.new(output, emission.inputs["Color"])
+        cycles = render("CYCLES")
+        if agreement(cycles, render("CYCLES", ASIDE_PX)) < STEADY:
+            continue
+        try:
+            fails = agreement(cycles, render(job["peer"])) < job["least"]
+        except RuntimeError:
+            fails = True
+        if fails:
+            return maker.settings.get(node.name, node.bl_idname.removeprefix("ShaderNode"))
+    return ""
 
 
 def main() -> None:

@@ -9,17 +9,18 @@ A graph colours an Emission shader of a plane, sampled once at each pixel's cent
 It passes when 90 % of its pixels are within 2 % of Cycles (or 0.001). Graphs whose picture is constant, not finite or
 not steady (one that sampling a hundredth of a pixel aside changes) are drawn again; a node alone may be constant. The
 same seed draws the same graphs in the same Blender. --keep saves what fails: a .blend file, and a PNG of Cycles'
-picture and the other's.
+picture and the other's. A failing graph's culprit is the first of its nodes, inputs before what they feed, whose own
+output fails where it colours the plane.
 """
 
 from __future__ import annotations
 
 import argparse
+import collections
 import json
 import subprocess
 import sys
 import tempfile
-from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
@@ -85,8 +86,10 @@ def passes(row: Row) -> bool:
 
 
 def describe(row: Row) -> str:
-    found = f"{row['agreement']:6.1%}" if "agreement" in row else row["fault"]
-    return f"{row['index']:4} {found}  {'; '.join(row.get('settings', [row['kind']]))}"
+    found = row["fault"] if "fault" in row else f"{row['agreement']:6.1%}"
+    lines = row.get("settings", [str(row["kind"])])
+    blamed = f"\n{'':13}culprit: {row['culprit']}" if row.get("culprit", lines[0]) != lines[0] else ""
+    return f"{row['index']:4} {found}  {'; '.join(lines)}{blamed}"
 
 
 def print_share(label: str, rows: list[Row]) -> None:
@@ -99,14 +102,17 @@ def print_table(rows: list[Row], is_single: bool) -> None:
     for row in rows:
         if not passes(row):
             print(describe(row))
-    by_kind: dict[str, list[Row]] = defaultdict(list)
+    by_kind: dict[str, list[Row]] = collections.defaultdict(list)
     for row in rows:
         for kind in [row["kind"]] if is_single else row.get("kinds", ()):
             by_kind[kind].append(row)
-    print(f"\n{'kind':20} {'graphs':>6} {'fail':>6}")
-    failing = {kind: sum(not passes(row) for row in found) / len(found) for kind, found in by_kind.items()}
+    culprits = collections.Counter(row["culprit"].split()[0] for row in rows if row.get("culprit"))
+    print(f"\n{'kind':20} {'graphs':>6} {'fail':>6} {'culprit':>8}")
+    for kind in culprits:
+        by_kind[kind] += []  # a node alone may fail for one that its inputs come from
+    failing = {kind: sum(not passes(row) for row in found) / max(len(found), 1) for kind, found in by_kind.items()}
     for kind, share in sorted(failing.items(), key=lambda item: (-item[1], item[0])):
-        print(f"{kind:20} {len(by_kind[kind]):6} {share:6.0%}")
+        print(f"{kind:20} {len(by_kind[kind]):6} {share:6.0%} {culprits[kind]:8}")
     print_share("graphs", rows)
     print_share("of them constant", [row for row in rows if row.get("constant")])
     print(f"attempts a graph: {np.mean([row.get('attempts', 1) for row in rows]):.2f}")
