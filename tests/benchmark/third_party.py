@@ -3,10 +3,11 @@
     ./run python -m tests.benchmark.third_party [--blender BLENDER] [--only PART_OF_A_NAME ...]
 
 320 x 180, four bounces, Blender's default pixel filter, no clamping, no denoiser; Cycles 256 samples, Pivot 64. What
-has no camera gets one around its bounding box, what has no light a sun, a sphere light and a grey world. Prints for
-each the FLIP of the pictures as a screen shows them, exposed so that Cycles' mean is a mid grey, the ratio of their
-means, Pivot over Cycles, and each kind of Pivot's warnings once with its count. Pictures are side by side, Cycles'
-left, in build/third_party/pictures. The files are Debian's and PyPI's (third_party_files.py), fetched there.
+has no camera gets one around its bounding box, what has no light a sun, a sphere light and a grey world; of a library
+of materials each is worn by a ball. Prints for each the FLIP of the pictures as a screen shows them, exposed so that
+Cycles' mean is a mid grey, the ratio of their means, Pivot over Cycles, and each kind of Pivot's warnings once with its
+count. Pictures are side by side, Cycles' left, in build/third_party/pictures. The files are Debian's and PyPI's
+(third_party_files.py), fetched there.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 CACHE = Path(__file__).resolve().parents[2] / "build" / "third_party"
-ASSIMP, FURNITURE, GENESIS = "assimp-testmodels", "sweethome3d-furniture", "genesis-world"
+ASSIMP, FURNITURE, BLENDER, GENESIS = "assimp-testmodels", "sweethome3d-furniture", "blender-data", "genesis-world"
 ASSIMP_MODELS = (  # beside every .blend file of the package
     "OBJ/spider.obj",
     "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb",
@@ -36,6 +36,8 @@ def third_party_files() -> Iterator[Path]:
     models = _debian(ASSIMP) / "usr" / "share" / "assimp" / "models"
     yield from sorted((models / "BLEND").glob("*.blend"))
     yield from (models / name for name in ASSIMP_MODELS)
+    scripts = _debian(BLENDER) / "usr" / "share" / "blender" / "scripts"
+    yield from scripts.glob("addons/materials_library_vx/sample_materials.blend")  # Debian 13's has it no more
     archives = _debian(FURNITURE) / "usr" / "share" / "sweethome3d" / "furniture"
     for archive, names in FURNITURE_MODELS.items():
         folder = archive.lower()
@@ -51,7 +53,7 @@ def _debian(package: str) -> Path:
     folder = CACHE / package
     if not folder.exists():
         CACHE.mkdir(parents=True, exist_ok=True)
-        subprocess.run(["apt-get", "-q", "download", package], cwd=CACHE, check=True)
+        subprocess.run(["apt-get", "-qq", "download", package], cwd=CACHE, check=True)
         (archive,) = CACHE.glob(f"{package}_*.deb")
         subprocess.run(["dpkg-deb", "-x", archive, folder], check=True)
     return folder

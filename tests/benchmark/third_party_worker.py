@@ -7,7 +7,9 @@ radiance, and result.json with what was added to the scene and Pivot's warnings 
 from __future__ import annotations
 
 import importlib
+import itertools
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -26,12 +28,15 @@ WIDTH_PX, HEIGHT_PX = 320, 180
 BOUNCES = 4
 CYCLES_SAMPLES, PIVOT_SAMPLES = 256, 64
 VIEW_RAD = 0.6  # the camera's angle
+BALLS_ACROSS = 9
 
 
 def load(file: Path) -> None:
     """Open a .blend file, or import a model into an empty one."""
     if file.suffix == ".blend":
         bpy.ops.wm.open_mainfile(filepath=str(file))
+        if not bpy.context.scene.objects:
+            show_materials()
         return
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     if file.suffix == ".obj":
@@ -41,8 +46,18 @@ def load(file: Path) -> None:
         bpy.ops.import_scene.gltf(filepath=str(file))
 
 
-def bounds() -> tuple[mathutils.Vector, float]:
-    """Centre and radius of the box around what renders."""
+def show_materials() -> None:
+    """A wall of balls, one of each material of a library."""
+    for number, material in enumerate(bpy.data.materials):
+        row, column = divmod(number, BALLS_ACROSS)
+        bpy.ops.mesh.primitive_uv_sphere_add(location=(2.2 * column, 0, -2.2 * row))
+        mesh: Any = bpy.context.object.data
+        mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+        mesh.materials.append(material)
+
+
+def bounds() -> tuple[mathutils.Vector, mathutils.Vector]:
+    """Centre and half the size of the box around what renders."""
     corners = [
         instance.matrix_world @ mathutils.Vector(corner)
         for instance in bpy.context.evaluated_depsgraph_get().object_instances
@@ -50,7 +65,16 @@ def bounds() -> tuple[mathutils.Vector, float]:
         for corner in instance.object.bound_box
     ]
     low, high = (mathutils.Vector(f(axis) for axis in zip(*corners, strict=True)) for f in (min, max))
-    return (low + high) / 2, max((high - low).length / 2, 1e-3)
+    return (low + high) / 2, (high - low) / 2
+
+
+def camera_distance_m(half_size: mathutils.Vector, turn: mathutils.Quaternion) -> float:
+    """How far a camera turned so, aimed at a box's centre, stands to see all of it."""
+    tangents = math.tan(VIEW_RAD / 2), math.tan(VIEW_RAD / 2) * HEIGHT_PX / WIDTH_PX
+    corners = [
+        turn.inverted() @ (half_size * mathutils.Vector(signs)) for signs in itertools.product((-1, 1), repeat=3)
+    ]
+    return 1.1 * max(c.z + max(abs(c.x) / tangents[0], abs(c.y) / tangents[1]) for c in corners)
 
 
 def add_what_is_missing() -> list[str]:
@@ -58,16 +82,17 @@ def add_what_is_missing() -> list[str]:
     scene = bpy.context.scene
     added = []
     if scene.camera is None:
-        centre, radius_m = bounds()
+        centre, half_size = bounds()
         toward = mathutils.Vector((0.5, -1, 0.45)).normalized()
-        distance_m = 4 * radius_m  # the sphere around the box is a little higher than the picture, few things fill it
+        distance_m = camera_distance_m(half_size, toward.to_track_quat("Z", "Y"))
         camera = bpy.data.cameras.new("camera")
         camera.angle = VIEW_RAD
         camera.clip_start, camera.clip_end = distance_m / 1000, distance_m * 10
         scene.camera = _link("camera", camera, centre + distance_m * toward, toward)
         added.append("camera")
     if not any(thing.type == "LIGHT" and not thing.hide_render for thing in scene.objects):
-        centre, radius_m = bounds()
+        centre, half_size = bounds()
+        radius_m = half_size.length
         sun = bpy.data.lights.new("sun", "SUN")
         sun.energy, sun.angle = 2.0, 0.05
         _link("sun", sun, centre, mathutils.Vector((0.6, -0.3, 0.8)))
