@@ -142,16 +142,18 @@ def main() -> None:
     for addon in ("cycles", "pivot"):
         if addon_utils.enable(addon) is None:
             raise RuntimeError(f"the addon {addon} does not enable")
-    load(Path(job["file"]))
-    said: dict[str, Any] = {"added": add_what_is_missing(), "warnings": []}
-    prepare()
+    said: dict[str, Any] = {"added": [], "warnings": []}
     pictures = {}
-    for engine in ("CYCLES", "PIVOT"):
-        bpy.context.scene.render.engine = engine
-        try:
+    try:
+        load(Path(job["file"]))
+        said["added"] = add_what_is_missing()
+        prepare()
+        for engine in ("CYCLES", "PIVOT"):
+            bpy.context.scene.render.engine = engine
             pictures[engine.lower()] = render_picture()
-        except RuntimeError as error:
-            said["fault"] = str(error).strip()
+    except RuntimeError as error:  # an operator's: the last line that names an error, of a traceback at times
+        lines = str(error).strip().splitlines()
+        said["fault"] = next((line for line in reversed(lines) if "Error" in line), lines[-1])
     said["warnings"] = sorted(importlib.import_module("pivot.engine").PivotRenderEngine.frame_count.warnings)
     np.savez(f"{job['result']}.npz", **pictures)
     Path(f"{job['result']}.json").write_text(json.dumps(said))
