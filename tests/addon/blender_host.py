@@ -73,16 +73,21 @@ def user_scripts() -> Path:
 
 @functools.cache
 def hosts() -> tuple[Host, ...]:
-    found = []
     blender = shutil.which("blender")
-    if blender:
-        text = subprocess.run([blender, "--version"], capture_output=True, text=True, check=True).stdout
-        version = re.search(r"Blender (\d+)\.(\d+)", text)
-        assert version, text
-        command = (blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python")
-        found.append(Host(command, (int(version[1]), int(version[2])), blender))
+    found = [find_host(blender)] if blender else []
     others = os.environ.get("PIVOT_TEST_PYTHONS", "")
-    return (*found, *filter(None, map(bpy_host, (sys.executable, *filter(None, others.split(":"))))))
+    pythons = (sys.executable, *filter(None, others.split(":")))
+    return (*filter(None, found), *filter(None, map(bpy_host, pythons)))
+
+
+def find_host(program: str) -> Host | None:
+    """A Blender, or the bpy of a Python, if it is one."""
+    text = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    version = re.search(r"Blender (\d+)\.(\d+)", text)
+    if version is None:
+        return bpy_host(program)
+    command = (program, "--background", "--factory-startup", "--python-exit-code", "1", "--python")
+    return Host(command, (int(version[1]), int(version[2])), program)
 
 
 def bpy_host(python: str) -> Host | None:

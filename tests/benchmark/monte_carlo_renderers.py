@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -12,6 +11,7 @@ import bpy
 # isort: split
 import addon_utils
 import numpy as np
+from blender_render import render_picture
 from numpy.typing import NDArray
 
 
@@ -24,10 +24,6 @@ class Cycles:
         scene = bpy.context.scene
         scene.render.engine = "CYCLES"
         scene.view_layers[0].use_pass_combined = True
-        image = scene.render.image_settings
-        if bpy.app.version >= (5, 0):
-            image.media_type = "IMAGE"
-        image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
         cycles: Any = scene.cycles
         cycles.device = "CPU"
         unclamped = {"sample_clamp_direct": 0.0, "sample_clamp_indirect": 0.0, "blur_glossy": 0.0}
@@ -36,17 +32,9 @@ class Cycles:
             setattr(cycles, name, value)
 
     def render(self, samples: int, seed: int) -> NDArray[np.float32]:
-        render = bpy.context.scene.render
         bpy.context.scene.cycles.samples = samples
         bpy.context.scene.cycles.seed = seed
-        path = Path(bpy.app.tempdir) / "picture.exr"
-        render.filepath = str(path)
-        bpy.ops.render.render(write_still=True)
-        image = bpy.data.images.load(str(path))
-        pixels = np.empty(render.resolution_y * render.resolution_x * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        bpy.data.images.remove(image)
-        return pixels.reshape(render.resolution_y, render.resolution_x, 4)[..., :3]
+        return render_picture()
 
 
 class Pivot:
