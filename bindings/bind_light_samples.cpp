@@ -31,7 +31,7 @@ BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
         throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
                               ", or as many as there are lights if they are fewer");
     }
-    return {Dimensions(0), light_samples, 0};
+    return {0, Dimensions(0), light_samples, 0};
 }
 
 py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
@@ -49,8 +49,9 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
             samplers[i] = {hash(static_cast<std::uint32_t>(first + i), seed), 0};
         vertices.sampler = sampler_lanes(samplers);
         SharedLamps shared;
+        Registers registers;
         const VertexBatch batch(vertices, std::min(batch_size, count - first));
-        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared)) {
+        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared, registers)) {
             wi.push_back(sample.wi);
             radiance.push_back(sample.radiance);
         }
@@ -87,7 +88,7 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
             const Vec3f direction(wi.at(i, 0), wi.at(i, 1), wi.at(i, 2));
             pdf_omega_bsdf.mutable_at(i) = pivot::pdf_omega(vertex.surface, direction);
             const auto place = intersect_light(source, vertex.point.position, direction);
-            if (!place || !vertex.point.faces(direction)) continue;
+            if (!place || !vertex.is_open_to(direction)) continue;
             const Rgb radiance = eval(vertex.surface, direction) * place->radiance;
             if (!(max_component(radiance) > 0.0f)) continue;
             pdf_omega.mutable_at(i, light) = expected * sampler.pdf_omega(*place);

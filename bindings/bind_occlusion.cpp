@@ -23,7 +23,7 @@ void for_each_hit(Scene& scene, const FloatArray& origins, const FloatArray& dir
         const auto hit = scene.intersect(ray, visible_to_camera);
         if (!hit) throw py::value_error("ray " + std::to_string(i) + " meets nothing");
         const SurfacePoint point = scene.surface_point(ray, *hit);
-        visit(i, scene.bent_cone(*hit, point), point, scene.materials()[scene.material_of(*hit)]);
+        visit(i, scene.bent_cone(*hit, point), point, scene.shaders()[scene.material_of(*hit)].constants);
     }
 }
 

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <cstring>
+#include <map>
 
 #include "bindings/arrays.h"
 #include "bindings/register.h"
@@ -34,13 +35,29 @@ void set_triangles(Mesh& mesh, const IntArray& corner_vertices, const IntArray& 
         }
         mesh.triangles.emplace_back(vertices[t.x], vertices[t.y], vertices[t.z]);
     }
-    if (mesh.corner_normals.empty() && mesh.corner_uvs.empty()) mesh.triangle_corners = {};
+    const auto at_corners = [](const Attribute& attribute) { return attribute.at_corners; };
+    if (mesh.corner_normals.empty() && std::ranges::none_of(mesh.attributes, at_corners)) mesh.triangle_corners = {};
+}
+
+/// Arrays (count, 1..4) by name.
+using AttributeArrays = std::map<string, FloatArray>;
+
+void add_attributes(Scene& scene, Mesh& mesh, const AttributeArrays& attributes, py::ssize_t count, bool at_corners) {
+    for (const auto& [name, values] : attributes) {
+        const string what = "mesh '" + mesh.name + "': attribute '" + name + "'";
+        require_shape(values, what, {count, -1});
+        if (values.shape(1) < 1 || values.shape(1) > 4) throw py::value_error(what + " must have 1 to 4 numbers each");
+        mesh.attributes.push_back({.id = scene.attribute_id(name),
+                                   .at_corners = at_corners,
+                                   .width = static_cast<std::uint32_t>(values.shape(1)),
+                                   .values = std::vector<float>(values.data(), values.data() + values.size())});
+    }
 }
 
 std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& positions, const IntArray& corner_vertices,
                        const IntArray& triangle_corners, const optional<FloatArray>& corner_normals,
-                       const optional<FloatArray>& vertex_normals, const optional<FloatArray>& corner_uvs,
-                       const optional<IntArray>& triangle_slots) {
+                       const optional<FloatArray>& vertex_normals, const optional<IntArray>& triangle_slots,
+                       const AttributeArrays& vertex_attributes, const AttributeArrays& corner_attributes) {
     const string prefix = "mesh '" + name + "': ";
     require_shape(positions, prefix + "positions", {-1, 3});
     require_shape(corner_vertices, prefix + "corner_vertices", {-1});
@@ -58,10 +75,8 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
         require_shape(*vertex_normals, prefix + "vertex_normals", {positions.shape(0), 3});
         mesh.vertex_normals = copy_rows<Vec3f>(*vertex_normals);
     }
-    if (corner_uvs) {
-        require_shape(*corner_uvs, prefix + "corner_uvs", {corners, 2});
-        mesh.corner_uvs = copy_rows<Vec2f>(*corner_uvs);
-    }
+    add_attributes(scene, mesh, vertex_attributes, positions.shape(0), false);
+    add_attributes(scene, mesh, corner_attributes, corners, true);
     set_triangles(mesh, corner_vertices, triangle_corners);
     if (triangle_slots) {
         require_shape(*triangle_slots, prefix + "triangle_slots", {triangle_corners.shape(0)});
@@ -74,15 +89,43 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
 
 std::uint32_t visibility_of(bool camera_visible) { return camera_visible ? visible_to_all : visible_to_light; }
 
+std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
+    Scene& scene, const std::map<string, std::array<float, 4>>& attributes) {
+    if (attributes.empty()) return nullptr;
+    std::vector<ObjectAttribute> result;
+    for (const auto& [name, value] : attributes) result.push_back({scene.attribute_id(name), value});
+    return std::make_shared<const std::vector<ObjectAttribute>>(std::move(result));
+}
+
 std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh, const FloatArray& object_to_world,
-                            const std::vector<std::uint32_t>& materials, bool camera_visible) {
-    require_shape(object_to_world, "object '" + name + "': object_to_world", {-1, 4, 4});
-    if (object_to_world.shape(0) == 0) throw py::value_error("object '" + name + "': object_to_world is empty");
+                            const std::vector<std::uint32_t>& materials, bool camera_visible,
+                            const std::array<float, 4>& color, float pass_index, const optional<FloatArray>& random,
+                            const optional<FloatArray>& particle_index, const optional<FloatArray>& generated,
+                            const optional<FloatArray>& uv, const std::map<string, std::array<float, 4>>& attributes) {
+    const string prefix = "object '" + name + "': ";
+    require_shape(object_to_world, prefix + "object_to_world", {-1, 4, 4});
+    const py::ssize_t count = object_to_world.shape(0);
+    if (count == 0) throw py::value_error(prefix + "object_to_world is empty");
+    if (random) require_shape(*random, prefix + "random", {count});
+    if (particle_index) require_shape(*particle_index, prefix + "particle_index", {count});
+    if (generated) require_shape(*generated, prefix + "generated", {count, 3});
+    if (uv) require_shape(*uv, prefix + "uv", {count, 2});
+    const ObjectFacts of_all{.attributes = object_attributes(scene, attributes),
+                             .color = Rgb(color[0], color[1], color[2]),
+                             .alpha = color[3],
+                             .pass_index = pass_index};
     std::vector<Transform> transforms;
-    for (py::ssize_t i = 0; i < object_to_world.shape(0); ++i)
+    std::vector<ObjectFacts> facts(static_cast<std::size_t>(count), of_all);
+    for (py::ssize_t i = 0; i < count; ++i) {
         transforms.push_back(to_transform(object_to_world.data(i)));
+        ObjectFacts& own = facts[static_cast<std::size_t>(i)];
+        if (random) own.random = random->at(i);
+        if (particle_index) own.particle_index = particle_index->at(i);
+        if (generated) own.generated = {generated->at(i, 0), generated->at(i, 1), generated->at(i, 2)};
+        if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
+    }
     const py::gil_scoped_release release;
-    return scene.add_instances({name, mesh, {}, materials, visibility_of(camera_visible)}, transforms);
+    return scene.add_instances({name, mesh, {}, materials, visibility_of(camera_visible)}, transforms, facts);
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
@@ -98,35 +141,6 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
     camera.clip_start_m = clip_start_m;
     camera.clip_end_m = clip_end_m;
     scene.set_camera(camera);
-}
-
-void register_material(py::module_& module) {
-    py::class_<Material>(
-        module, "Material",
-        "A Lambert lobe beneath one GGX lobe, and emission; colours are linear RGB.\n\n"
-        "The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is "
-        "multiplied, plus, times "
-        "dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal "
-        "incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1.")
-        .def(py::init([](const Triple& diffuse, float alpha, const Triple& conductor_f0, const Triple& conductor_f90,
-                         float conductor_weight, float dielectric_weight, float dielectric_ior,
-                         const Triple& dielectric_tint, bool multiscatter, const Triple& emission) {
-                 return Material{.diffuse = to_vec3(diffuse),
-                                 .alpha = alpha,
-                                 .conductor_f0 = to_vec3(conductor_f0),
-                                 .conductor_f90 = to_vec3(conductor_f90),
-                                 .conductor_weight = conductor_weight,
-                                 .dielectric_weight = dielectric_weight,
-                                 .dielectric_ior = dielectric_ior,
-                                 .dielectric_tint = to_vec3(dielectric_tint),
-                                 .multiscatter = multiscatter ? 1.0f : 0.0f,
-                                 .emission = to_vec3(emission)};
-             }),
-             py::kw_only(), py::arg("diffuse") = Triple{}, py::arg("alpha") = 0.5f, py::arg("conductor_f0") = Triple{},
-             py::arg("conductor_f90") = Triple{}, py::arg("conductor_weight") = 1.0f,
-             py::arg("dielectric_weight") = 0.0f, py::arg("dielectric_ior") = 1.5f,
-             py::arg("dielectric_tint") = Triple{1, 1, 1}, py::arg("multiscatter") = false,
-             py::arg("emission") = Triple{});
 }
 
 void register_lights(py::module_& module) {
@@ -168,7 +182,6 @@ void register_lights(py::module_& module) {
 }  // namespace
 
 void register_scene(py::module_& module) {
-    register_material(module);
     register_lights(module);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     py::class_<Scene, std::shared_ptr<Scene>>(
@@ -177,17 +190,21 @@ void register_scene(py::module_& module) {
         .def(py::init<>())
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("corner_vertices"),
              py::arg("triangle_corners"), py::arg("corner_normals") = py::none(),
-             py::arg("vertex_normals") = py::none(), py::arg("corner_uvs") = py::none(),
-             py::arg("triangle_slots") = py::none(),
+             py::arg("vertex_normals") = py::none(), py::arg("triangle_slots") = py::none(),
+             py::arg("vertex_attributes") = AttributeArrays{}, py::arg("corner_attributes") = AttributeArrays{},
              "positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals "
-             "(V, 3), without both flat shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the "
-             "mesh's id.")
+             "(V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and "
+             "(C, 1..4): what shaders read. Returns the mesh's id.")
+        .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
              py::arg("materials"), py::arg("camera_visible") = true,
-             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. "
-             "Returns the "
-             "first of N consecutive ids.")
-        .def("add_material", &Scene::add_material, py::arg("name"), py::arg("material"))
+             py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f}, py::arg("pass_index") = 0.0f,
+             py::arg("random") = py::none(), py::arg("particle_index") = py::none(), py::arg("generated") = py::none(),
+             py::arg("uv") = py::none(), py::arg("attributes") = std::map<string, std::array<float, 4>>{},
+             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What "
+             "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
+             "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
+        .def("add_material", &Scene::add_material, py::arg("name"), py::arg("material"), "A Material or a Shader.")
         .def("add_light", &Scene::add_light, py::arg("name"), py::arg("light"))
         .def("set_material", &Scene::set_material, py::arg("id"), py::arg("material"))
         .def("set_light", &Scene::set_light, py::arg("id"), py::arg("light"))
@@ -209,8 +226,15 @@ void register_scene(py::module_& module) {
         .def("remove_instance", &Scene::remove_instance, py::arg("id"))
         .def("remove_light", &Scene::remove_light, py::arg("id"))
         .def(
-            "set_world", [](Scene& scene, const Triple& radiance) { scene.set_world(to_vec3(radiance)); },
+            "set_world",
+            [](Scene& scene, const Triple& radiance) {
+                Material sky;
+                sky.emission = to_vec3(radiance);
+                scene.set_world(sky);
+            },
             py::arg("radiance"))
+        .def("set_world_shader", &Scene::set_world, py::arg("shader"),
+             "A Shader whose emission is the light from each direction.")
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
              py::arg("clip_end_m") = infinity,

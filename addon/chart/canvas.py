@@ -66,7 +66,8 @@ class Canvas:
         curve.body, curve.size, curve.align_x, curve.resolution_u = body, size, align, 3
         holder = bpy.data.objects.new("text", curve)
         try:
-            arrays = mesh_arrays(holder.to_mesh())
+            mesh = holder.to_mesh()
+            arrays = mesh_arrays(mesh) if len(mesh.polygons) else None
         finally:
             bpy.data.objects.remove(holder)
             bpy.data.curves.remove(curve)

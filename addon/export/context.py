@@ -9,6 +9,7 @@ from typing import Any
 import bpy
 
 from ..report import Reporter
+from .images import ImageTable
 
 
 @dataclass(frozen=True)
@@ -17,3 +18,4 @@ class Context:
     scene: Any  # pivot_core.Scene, being filled
     depsgraph: bpy.types.Depsgraph
     reporter: Reporter
+    images: ImageTable

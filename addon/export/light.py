@@ -18,6 +18,7 @@ from ..report import RenderError, Reporter, naming
 from .census import report_left_out
 from .context import Context
 from .nodes import Owner, active_tree
+from .program import Program
 from .shader import light_emission
 
 _AREA_EXITANCE_PER_RADIANCE = math.pi if bpy.app.version >= (4, 0) else 4.0
@@ -55,7 +56,11 @@ def _strength(context: Context, data: Any, owner: str) -> NDArray[np.float64]:
         strength *= np.array(data.temperature_color)
     tree = active_tree(data)
     if tree is not None:
-        strength *= light_emission(tree, Owner(owner, context.reporter))
+        program = Program(context.core, context.scene, context.images, is_nowhere=True)
+        emission = light_emission(tree, Owner(owner, context.reporter, program))
+        if not emission.is_constant:
+            context.reporter.warn(f"{owner}: light that varies over a lamp is not supported, it is the same everywhere")
+        strength *= emission.typical()
     return strength
 
 

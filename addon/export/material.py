@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
-import numpy as np
 
 from ..report import naming
 from .context import Context
 from .nodes import Owner, active_tree
-from .shader import GREY, material_surface
+from .program import Program
+from .shader import grey, material_surface
 from .surface import Surface
+
+
+@dataclass(frozen=True)
+class _Exported:
+    id: int  # the core's
+    attributes: frozenset[str]  # that it reads of its meshes
 
 
 class MaterialTable:
@@ -17,25 +25,31 @@ class MaterialTable:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._ids: dict[int, int] = {}  # by the address of the Blender material; 0: none
+        self._materials: dict[int, _Exported] = {}  # by the address of the Blender material; 0: none
         self._override = context.depsgraph.view_layer_eval.material_override
 
-    def slots(self, slot_materials: list[bpy.types.Material | None], user: bpy.types.Object) -> tuple[int, ...]:
-        """One id per slot, at least one. user: the object to name in reports."""
-        return tuple(self._id(self._override or material, user) for material in slot_materials or [None])
+    def slots(
+        self, slot_materials: list[bpy.types.Material | None], user: bpy.types.Object
+    ) -> tuple[tuple[int, ...], frozenset[str]]:
+        """One id per slot, at least one, and the attributes that they read. user: the object to name in reports."""
+        slots = [self._exported(self._override or material, user) for material in slot_materials or [None]]
+        return tuple(slot.id for slot in slots), frozenset().union(*(slot.attributes for slot in slots))
 
-    def _id(self, material: bpy.types.Material | None, user: bpy.types.Object) -> int:
+    def _exported(self, material: bpy.types.Material | None, user: bpy.types.Object) -> _Exported:
         key = material.as_pointer() if material else 0
-        if key not in self._ids:
+        if key not in self._materials:
             name = material.name if material else "none"
-            surface = _surface(material, Owner(f"object '{user.name}', material '{name}'", self._context.reporter))
+            where = f"object '{user.name}', material '{name}'"
+            program = Program(self._context.core, self._context.scene, self._context.images)
+            surface = _surface(material, Owner(where, self._context.reporter, program, material))
             self._warn_of_emission(surface, user, name)
-            with naming(f"object '{user.name}', material '{name}'", "give its colours and numbers finite values"):
-                self._ids[key] = self._context.scene.add_material(name, surface.core_material(self._context.core))
-        return self._ids[key]
+            with naming(where, "give its colours and numbers finite values"):
+                id_ = self._context.scene.add_material(name, surface.core_shader(self._context.core))
+            self._materials[key] = _Exported(id_, frozenset(program.attributes))
+        return self._materials[key]
 
     def _warn_of_emission(self, surface: Surface, user: bpy.types.Object, name: str) -> None:
-        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and surface.emission.any():
+        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and not surface.emission.is_always(0):
             self._context.reporter.warn(
                 f"object '{user.name}', material '{name}': in the analytic integrator its emission is shown, but "
                 "lights nothing. Fix: use Monte Carlo"
@@ -44,8 +58,8 @@ class MaterialTable:
 
 def _surface(material: bpy.types.Material | None, owner: Owner) -> Surface:
     if material is None:
-        return GREY
+        return grey(owner.program)
     tree = active_tree(material)
     if tree is None:
-        return Surface(diffuse=np.array(material.diffuse_color[:3]))  # as Cycles has it
+        return Surface.of(owner.program, diffuse=owner.program.colour(material.diffuse_color[:3]))  # as Cycles has it
     return material_surface(tree, owner)

@@ -25,7 +25,6 @@ class MeshArrays:
     triangle_corners: NDArray[np.int32]  # (T, 3)
     corner_normals: NDArray[np.float32] | None  # (C, 3), unit
     vertex_normals: NDArray[np.float32] | None  # (V, 3), unit, where no corner has its own; without both: flat
-    corner_uvs: NDArray[np.float32] | None  # (C, 2)
     triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
 
 
@@ -44,21 +43,18 @@ def edits_applied(blender_object: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         blender_object.to_mesh_clear()
 
 
-def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays | None:
-    """The triangles of an evaluated mesh, None without any. The arrays are copies."""
+def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays:
+    """The triangles of an evaluated mesh that has polygons. The arrays are copies."""
     if not _LAZY:
         mesh.calc_loop_triangles()
-    if not len(mesh.loop_triangles):
-        return None
     domain = _normals_domain(mesh)
     slots = _polygon_slots(mesh)
     return MeshArrays(
         positions=_positions(mesh),
         corner_vertices=_corner_vertices(mesh),
         triangle_corners=_triangle_corners(mesh),
-        corner_normals=_corner_normals(mesh) if domain == "CORNER" else None,
+        corner_normals=corner_normals(mesh) if domain == "CORNER" else None,
         vertex_normals=_read(mesh.vertex_normals, "vector", np.float32, 3) if domain == "POINT" else None,
-        corner_uvs=_corner_uvs(mesh),
         triangle_slots=None if slots is None else slots[_triangle_polygons(mesh)],
     )
 
@@ -110,7 +106,7 @@ def _normals_domain(mesh: bpy.types.Mesh) -> str:
     return mesh.normals_domain if _LAZY else "CORNER"
 
 
-def _corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+def corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     """Unit normals of the face corners: flat and smooth faces, sharp edges, auto smooth and custom normals."""
     if _LAZY:
         return _read(mesh.corner_normals, "vector", np.float32, 3)
@@ -118,15 +114,6 @@ def _corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     normals = _read(mesh.loops, "normal", np.float32, 3)
     mesh.free_normals_split()
     return normals
-
-
-def _corner_uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
-    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
-    if layer is None:
-        return None
-    if hasattr(layer, "uv"):  # from Blender 3.5
-        return _read(layer.uv, "vector", np.float32, 2)
-    return _read(layer.data, "uv", np.float32, 2)
 
 
 def _polygon_slots(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
+from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..report import RenderError, Reporter, naming
+from .attributes import is_of_mesh, mesh_attributes, object_attributes
 from .census import report_left_out
 from .context import Context
+from .images import ImageTable
+from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable
-from .mesh import MeshArrays, edits_applied, mesh_arrays
+from .mesh import edits_applied, mesh_arrays
 from .world import export_world
 
 # Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
@@ -25,12 +28,16 @@ _UNSUPPORTED = {"CURVES", "POINTCLOUD", "VOLUME", "GPENCIL", "GREASEPENCIL"}
 
 @dataclass(frozen=True)
 class _Group:
-    """Instances that differ in nothing but their transform."""
+    """Instances that differ in nothing but their transform, and what each has of its own for shaders."""
 
     name: str  # of the Blender object
     mesh: int
     materials: tuple[int, ...]
     camera_visible: bool
+    color: tuple[float, float, float, float]
+    pass_index: float
+    reads: frozenset[str]  # attributes that its materials ask for
+    attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
 
 
 def export_scene(
@@ -44,7 +51,7 @@ def export_scene(
     check_cancel: called between objects, may raise. Keeps nothing of the depsgraph but in the Context returned.
     Raises RenderError naming the object at fault.
     """
-    context = Context(core, core.Scene(), depsgraph, reporter)
+    context = Context(core, core.Scene(), depsgraph, reporter, ImageTable(core, depsgraph.scene_eval.frame_current))
     _report_settings(context)
     export_world(context)
     _Exporter(context, check_cancel).export_objects()
@@ -71,70 +78,78 @@ class _Exporter:
         self._context = context
         self._check_cancel = check_cancel
         self._materials = MaterialTable(context)
-        self._meshes: dict[int, int | None] = {}  # by the address of the evaluated data; None: no triangles
+        self._meshes: dict[tuple[int, frozenset[str]], int] = {}  # by the evaluated data's address, and what is read
         self._groups: dict[tuple[int, int], _Group | None] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
+        self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
 
     def export_objects(self) -> None:
         instances = self._context.depsgraph.object_instances
-        matrices = np.empty(len(instances) * 16, np.float32)
-        instances.foreach_get("matrix_world", matrices)
-        object_to_world = matrices.reshape(-1, 4, 4).transpose(0, 2, 1)  # Blender's columns come first
+        told = Instances.read(instances)
         surfaces = self._context.depsgraph.view_layer_eval.use_solid
         for index, instance in enumerate(instances):
             if not instance.show_self:
                 continue
             blender_object = instance.object
             if blender_object.type == "LIGHT":
-                export_light(self._context, blender_object, object_to_world[index].astype(np.float64))
+                export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
             elif surfaces and blender_object.type == "MESH":
-                group = self._group(blender_object)
+                group = self._group(blender_object, instance)
                 if group is not None:
                     self._instances[group].append(index)
+                    if "particle:" in group.reads:
+                        self._particles[group].append(particle_index(instance))
             elif surfaces and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
         for group, indices in self._instances.items():
-            self._add_instances(group, object_to_world[indices])
+            self._add_instances(group, indices, told)
 
-    def _group(self, blender_object: bpy.types.Object) -> _Group | None:
+    def _group(self, blender_object: bpy.types.Object, instance: Any) -> _Group | None:
         """What a mesh object shares with its like; None where there is nothing to see."""
         key = (blender_object.original.as_pointer(), blender_object.data.as_pointer())
         if key not in self._groups:
             self._check_cancel()
             self._groups[key] = self._make_group(blender_object)
-        return self._groups[key]
+        group = self._groups[key]
+        if group is None or all(is_of_mesh(name) for name in group.reads):
+            return group
+        instancer = instance.parent if instance.is_instance else None
+        attributes = object_attributes(group.reads, blender_object, instancer, self._context.depsgraph)
+        return replace(group, attributes=tuple(attributes.items()))
 
     def _make_group(self, blender_object: bpy.types.Object) -> _Group | None:
-        mesh = self._mesh(blender_object)
-        if mesh is None:
-            return None
-        report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
-        slot_materials = [slot.material for slot in blender_object.material_slots]
-        return _Group(
-            name=blender_object.name,
-            mesh=mesh,
-            materials=self._materials.slots(slot_materials, blender_object),
-            camera_visible=blender_object.visible_camera,
-        )
+        with edits_applied(blender_object) as mesh:
+            if not len(mesh.polygons):
+                return None
+            report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
+            slot_materials = [slot.material for slot in blender_object.material_slots]
+            materials, attributes = self._materials.slots(slot_materials, blender_object)
+            return _Group(
+                name=blender_object.name,
+                mesh=self._mesh(blender_object, mesh, attributes),
+                materials=materials,
+                camera_visible=blender_object.visible_camera,
+                color=tuple(blender_object.color),
+                pass_index=blender_object.pass_index,
+                reads=attributes,
+            )
 
-    def _mesh(self, blender_object: bpy.types.Object) -> int | None:
-        """The core's mesh of an object's evaluated mesh."""
-        key = blender_object.data.as_pointer()
+    def _mesh(self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, attributes: frozenset[str]) -> int:
+        """The core's mesh of an object's evaluated mesh. mesh: that, with what is edited in Edit Mode."""
+        names = frozenset(filter(is_of_mesh, attributes))
+        key = (blender_object.data.as_pointer(), names)
         if key not in self._meshes:
-            with edits_applied(blender_object) as mesh:
+            fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"
+            with naming(f"object '{blender_object.name}'", fix):
                 arrays = mesh_arrays(mesh)
-            self._meshes[key] = self._add_mesh(blender_object.name, arrays)
+                self._meshes[key] = self._context.scene.add_mesh(
+                    blender_object.name, **vars(arrays), **vars(mesh_attributes(mesh, arrays, names))
+                )
         return self._meshes[key]
 
-    def _add_mesh(self, name: str, arrays: MeshArrays | None) -> int | None:
-        if arrays is None:
-            return None
-        fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"
-        with naming(f"object '{name}'", fix):
-            return self._context.scene.add_mesh(name, **vars(arrays))
-
-    def _add_instances(self, group: _Group, object_to_world: NDArray[np.float32]) -> None:
+    def _add_instances(self, group: _Group, indices: list[int], told: Instances) -> None:
+        object_to_world = told.object_to_world[indices]
         if not np.isfinite(object_to_world).all():
             raise RenderError(
                 f"object '{group.name}': its transform is not finite. Fix: check its location, rotation, scale, "
@@ -146,6 +161,13 @@ class _Exporter:
             np.ascontiguousarray(object_to_world),
             group.materials,
             camera_visible=group.camera_visible,
+            color=group.color,
+            pass_index=group.pass_index,
+            random=told.random_of(group.name, indices),
+            particle_index=np.array(self._particles[group], np.float32) if "particle:" in group.reads else None,
+            generated=told.generated[indices],
+            uv=told.uv[indices],
+            attributes=dict(group.attributes),
         )
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:

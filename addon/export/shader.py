@@ -6,18 +6,34 @@ also where the Blender in hand is older.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import bpy
-import numpy as np
 
 from .census import INPUTS
-from .colour import Colour
-from .nodes import MID_GREY, Owner, Socket, colour, is_constant, is_linked, number, output_surface, source
+from .nodes import (
+    MID_GREY,
+    Owner,
+    Socket,
+    colour,
+    displaced,
+    is_constant,
+    is_linked,
+    normal,
+    number,
+    output_surface,
+    source,
+)
+from .program import Program, Value
 from .surface import Surface, added
 
-GREY = Surface(diffuse=np.full(3, 0.8))  # Cycles' for objects without a material
+MAX_LOBES = 3  # of the core, beside a base
+
+
+def grey(program: Program) -> Surface:
+    """Cycles' for objects without a material."""
+    return Surface.of(program, diffuse=program.colour((0.8, 0.8, 0.8)))
 
 
 def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
@@ -25,58 +41,81 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
     output = output_surface(tree)
     if output is None or not output.socket.is_linked:
         owner.reporter.warn(f"{owner.name}: nothing is linked to the Surface of its output, it is shown as grey")
-        return GREY
+        return grey(owner.program)
     _leave_out(output, owner)
     try:
+        displacement = output.input("Displacement")
+        if is_linked(displacement):
+            owner = displaced(displacement, owner)
+            _report_displacement(owner)
         surface = _shader(output, owner)
+        if surface is not None and surface.normal is not None and surface.normal == owner.displaced_normal:
+            surface = replace(surface, normal_is_own=True)
     except RecursionError:
         owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is shown as grey")
-        return GREY
+        return grey(owner.program)
     if surface is None:
         owner.reporter.warn(f"{owner.name}: transparency is not supported, it is shown as grey")
-        return GREY
+        return grey(owner.program)
+    surface, exact = surface.within(MAX_LOBES)
+    if not exact:
+        owner.reporter.warn(
+            f"{owner.name}: more than {MAX_LOBES} lobes beside the first are not supported, the weakest highlights are "
+            "shown as one"
+        )
     return surface
 
 
-def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Colour:
-    """(3,): the colour and strength that a light's or world's node tree multiplies its light with."""
+def _report_displacement(owner: Owner) -> None:
+    material = owner.data
+    settings = material if hasattr(material, "displacement_method") else material.cycles  # from Blender 4.1
+    if settings.displacement_method != "BUMP":
+        owner.reporter.warn(f"{owner.name}: displacement of the surface is not supported, it is shown as bump")
+
+
+def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Value:
+    """The colour and strength that a light's or world's node tree multiplies its light with."""
+    black = owner.program.colour((0, 0, 0))
     output = output_surface(tree)
     if output is None:
-        return np.zeros(3)
+        return black
     _leave_out(output, owner)
     try:
         surface = _shader(output, owner)
     except RecursionError:
         owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is black")
-        return np.zeros(3)
-    return np.zeros(3) if surface is None else surface.emission
+        return black
+    return black if surface is None else surface.emission
 
 
 def _shader(target: Socket, owner: Owner) -> Surface | None:
     """The surface a shader input stands for; None for one that lets light through."""
     feed = source(target)
     if feed is None or not feed.socket.is_output:
-        return Surface()
+        return Surface.of(owner.program)
     evaluate = _SHADERS.get(feed.node.type)
     if evaluate is not None:
         _leave_out(feed, owner)
         return evaluate(feed, owner)
     owner.warn(feed.node, f"{feed.node.bl_label} is not supported, it is shown as a diffuse surface of its colour")
     tint = feed.find_input("Color", "Base Color", "Diffuse Color")
-    return Surface(diffuse=np.full(3, MID_GREY) if tint is None else colour(tint, owner))
+    mid_grey = owner.program.colour([MID_GREY] * 3)
+    return Surface.of(owner.program, diffuse=mid_grey if tint is None else colour(tint, owner))
 
 
 def _mix(feed: Socket, owner: Owner) -> Surface | None:
-    factor = min(max(number(feed.input(0), owner, unknown=0.5), 0.0), 1.0)
-    return _sum(feed, owner, 1 - factor, factor, feed.input(1), feed.input(2))
+    factor = number(feed.input(0), owner).clamped()
+    return _sum(feed, owner, 1.0 - factor, factor, feed.input(1), feed.input(2))
 
 
 def _add(feed: Socket, owner: Owner) -> Surface | None:
-    return _sum(feed, owner, 1.0, 1.0, feed.input(0), feed.input(1))
+    one = owner.program.number(1.0)
+    return _sum(feed, owner, one, one, feed.input(0), feed.input(1))
 
 
-def _sum(feed: Socket, owner: Owner, weight_a: float, weight_b: float, a: Socket, b: Socket) -> Surface | None:
-    parts = [(weight, _shader(shader, owner)) for weight, shader in ((weight_a, a), (weight_b, b)) if weight > 0]
+def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket, b: Socket) -> Surface | None:
+    pairs = ((weight_a, a), (weight_b, b))
+    parts = [(weight, _shader(shader, owner)) for weight, shader in pairs if not weight.is_always(0)]
     opaque = [(weight, surface) for weight, surface in parts if surface is not None]
     if len(opaque) < len(parts):  # beside transparency the other shader is opaque
         return opaque[0][1] if opaque else None
@@ -85,55 +124,65 @@ def _sum(feed: Socket, owner: Owner, weight_a: float, weight_b: float, a: Socket
         return scaled[0]
     total, exact = added(*scaled)
     if not exact:
-        owner.warn(feed.node, "highlights of different kinds cannot be mixed, all are shown as the strongest")
+        owner.warn(feed.node, "shaders of different normals cannot be mixed, all take the first one's")
     return total
 
 
 def _diffuse(feed: Socket, owner: Owner) -> Surface:
-    return Surface(diffuse=colour(feed.input("Color"), owner))
+    return Surface.of(owner.program, diffuse=colour(feed.input("Color"), owner), normal=normal(feed, owner))
+
+
+def _translucent(feed: Socket, owner: Owner) -> Surface:
+    return Surface.of(owner.program, translucent=colour(feed.input("Color"), owner), normal=normal(feed, owner))
 
 
 def _glossy(feed: Socket, owner: Owner) -> Surface:
     tint = colour(feed.input("Color"), owner)
-    return Surface(
+    return Surface.of(
+        owner.program,
         alpha=_alpha(feed, owner),
         conductor_f0=tint,
         conductor_f90=tint,
-        conductor_weight=1.0,
+        conductor_weight=owner.program.number(1.0),
         multiscatter=_multiscatter(feed, owner),
+        normal=normal(feed, owner),
     )
 
 
 def _metallic(feed: Socket, owner: Owner) -> Surface:
     if feed.node.fresnel_type != "F82":
         owner.warn(feed.node, "physical conductors are not supported, it is shown by its base colour and edge tint")
-    base, edge_tint = (np.clip(colour(feed.input(name), owner), 0, 1) for name in ("Base Color", "Edge Tint"))
-    return Surface(
+    base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
+    return Surface.of(
+        owner.program,
         alpha=_alpha(feed, owner),
         conductor_f0=base,
         conductor_f90=_grazing_reflectance(base, edge_tint, feed, owner),
-        conductor_weight=1.0,
+        conductor_weight=owner.program.number(1.0),
         multiscatter=_multiscatter(feed, owner),
+        normal=normal(feed, owner),
     )
 
 
-def _grazing_reflectance(f0: Colour, edge_tint: Colour, feed: Socket, owner: Owner) -> Colour:
+def _grazing_reflectance(f0: Value, edge_tint: Value, feed: Socket, owner: Owner) -> Value:
     """The F90 by which Schlick's curve has the F82-tint model's reflectance at 82 degrees: exact for a white tint."""
-    if np.any(edge_tint != 1):
+    if not edge_tint.is_always(1):
         owner.warn(feed.node, "the edge tint of metal is approximated")
     weight_82 = (1 - 1 / 7) ** 5
-    reflectance_82 = edge_tint * (f0 + (1 - f0) * weight_82)
-    return np.maximum(f0 + (reflectance_82 - f0) / weight_82, 0)
+    reflectance_82 = edge_tint * (f0 + (1.0 - f0) * weight_82)
+    return (f0 + (reflectance_82 - f0) / weight_82).at_least(0.0)
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
     owner.warn(feed.node, f"{feed.node.bl_label} is not supported, it is shown as an opaque, glossy surface")
-    return Surface(
+    return Surface.of(
+        owner.program,
         diffuse=colour(feed.input("Color"), owner),
         alpha=_alpha(feed, owner),
-        dielectric_weight=1.0,
+        dielectric_weight=owner.program.number(1.0),
         dielectric_ior=_ior(feed, owner),
         multiscatter=_multiscatter(feed, owner),
+        normal=normal(feed, owner),
     )
 
 
@@ -142,36 +191,38 @@ def _transparent(feed: Socket, owner: Owner) -> None:
 
 
 def _emission(feed: Socket, owner: Owner) -> Surface:
-    return Surface(emission=_emitted(feed.input("Color"), feed.input("Strength"), owner))
+    return Surface.of(owner.program, emission=_emitted(feed.input("Color"), feed.input("Strength"), owner))
 
 
-def _emitted(tint: Socket, strength: Socket, owner: Owner) -> Colour:
+def _emitted(tint: Socket, strength: Socket, owner: Owner) -> Value:
     factor = number(strength, owner)
-    return factor * colour(tint, owner, unknown=1.0) if factor else np.zeros(3)
+    return owner.program.colour((0, 0, 0)) if factor.is_always(0) else colour(tint, owner, unknown=1.0) * factor
 
 
 def _principled(feed: Socket, owner: Owner) -> Surface:
-    base = np.maximum(colour(feed.input("Base Color"), owner), 0)
-    metallic = min(max(number(feed.input("Metallic"), owner), 0.0), 1.0)
+    base = colour(feed.input("Base Color"), owner).at_least(0.0)
+    metallic = number(feed.input("Metallic"), owner).clamped()
     ior, tint = _dielectric(feed, owner, base)
-    f0 = np.minimum(base, 1)
-    f82_tinted = metallic > 0 and feed.find_input("Specular IOR Level") is not None
-    edge_tint = np.minimum(tint, 1) if f82_tinted else np.ones(3)
-    return Surface(
-        diffuse=base * (1 - metallic),
+    f0 = base.at_most(1.0)
+    f82_tinted = not metallic.is_always(0) and feed.find_input("Specular IOR Level") is not None
+    edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
+    return Surface.of(
+        owner.program,
+        diffuse=base * (1.0 - metallic),
         alpha=_alpha(feed, owner),
         conductor_f0=f0 * metallic,
         conductor_f90=_grazing_reflectance(f0, edge_tint, feed, owner) * metallic,
         conductor_weight=metallic,
-        dielectric_weight=(1 - metallic) if ior != 1 else 0.0,
+        dielectric_weight=owner.program.number(0.0) if ior.is_always(1) else 1.0 - metallic,
         dielectric_ior=ior,
         dielectric_tint=tint,
         multiscatter=_multiscatter(feed, owner),
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
+        normal=normal(feed, owner),
     )
 
 
-def _dielectric(feed: Socket, owner: Owner, base: Colour) -> tuple[float, Colour]:
+def _dielectric(feed: Socket, owner: Owner, base: Value) -> tuple[Value, Value]:
     """IOR and tint at normal incidence of Principled's specular layer. [Cycles 4.5 svm/closure.h]
 
     From Blender 4.0, Specular IOR Level scales the reflectance of IOR by twice its value. Before, Specular was 1 / 0.08
@@ -180,38 +231,39 @@ def _dielectric(feed: Socket, owner: Owner, base: Colour) -> tuple[float, Colour
     level = feed.find_input("Specular IOR Level")
     if level is not None:
         ior = _ior(feed, owner)
-        f0 = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(number(level, owner), 0.0)
-        return _ior_from_f0(f0), np.maximum(colour(feed.input("Specular Tint"), owner), 0)
-    f0 = 0.08 * max(number(feed.input("Specular"), owner), 0.0)
-    luminance = float(base @ (0.3, 0.6, 0.1))
-    hue = base / luminance if luminance > 0 else np.ones(3)
-    amount = number(feed.input("Specular Tint"), owner)
-    return _ior_from_f0(f0), (1 - amount) + amount * hue
+        ratio = (ior - 1.0) / (ior + 1.0)
+        f0 = ratio * ratio * (2.0 * number(level, owner).at_least(0.0))
+        return _ior_from_f0(f0), colour(feed.input("Specular Tint"), owner).at_least(0.0)
+    f0 = 0.08 * number(feed.input("Specular"), owner).at_least(0.0)
+    luminance = base[0] * 0.3 + base[1] * 0.6 + base[2] * 0.1
+    white, lit = owner.program.colour((1, 1, 1)), owner.program.each("math_greater_than", luminance, 0.0)
+    hue = owner.program.mixed(lit, white, base / luminance)
+    return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, hue)
 
 
-def _ior(feed: Socket, owner: Owner) -> float:
+def _ior(feed: Socket, owner: Owner) -> Value:
     """The index of refraction, at least 1.
 
     One below reflects all light past some angle, which the core does not know; its inverse reflects as much at normal
     incidence.
     """
-    ior = max(number(feed.input("IOR"), owner), 1e-5)
-    if ior >= 1:
-        return ior
-    owner.warn(feed.node, "an IOR below 1 is not supported, it is shown as 1 / IOR")
-    return 1 / ior
+    ior = number(feed.input("IOR"), owner).at_least(1e-5)
+    if ior.is_constant and ior.numbers[0] < 1:
+        owner.warn(feed.node, "an IOR below 1 is not supported, it is shown as 1 / IOR")
+    return ior if ior.is_constant and ior.numbers[0] >= 1 else ior.at_least(1.0 / ior)
 
 
-def _ior_from_f0(f0: float) -> float:
-    root = math.sqrt(min(f0, 0.99))
-    return (1 + root) / (1 - root)
+def _ior_from_f0(f0: Value) -> Value:
+    root = f0.at_most(0.99).root()
+    return (1.0 + root) / (1.0 - root)
 
 
-def _alpha(feed: Socket, owner: Owner) -> float:
+def _alpha(feed: Socket, owner: Owner) -> Value:
     """GGX alpha of a shader with a Roughness."""
     if getattr(feed.node, "distribution", "") == "SHARP":
-        return 0.0
-    return min(max(number(feed.input("Roughness"), owner), 0.0), 1.0) ** 2
+        return owner.program.number(0.0)
+    roughness = number(feed.input("Roughness"), owner).clamped()
+    return roughness * roughness
 
 
 def _multiscatter(feed: Socket, owner: Owner) -> bool:
@@ -233,6 +285,7 @@ def _leave_out(feed: Socket, owner: Owner) -> None:
 _SHADERS: dict[str, Callable[[Socket, Owner], Surface | None]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
+    "BSDF_TRANSLUCENT": _translucent,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,

@@ -2,38 +2,68 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from .colour import Colour
+from .program import Program, Register, Value
 
-
-def _black() -> Colour:
-    return np.zeros(3)
-
-
-def _white() -> Colour:
-    return np.ones(3)
+_BASE = (
+    "diffuse", "alpha", "conductor_f0", "conductor_f90", "conductor_weight", "dielectric_weight", "dielectric_ior",
+    "dielectric_tint", "weight",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A Lambert lobe, one GGX lobe of two Fresnel parts, and emission: the arguments of pivot_core.Material."""
+    """A base, further lobes and emission: what a pivot_core.Shader is made of.
 
-    diffuse: Colour = field(default_factory=_black)
-    alpha: float = 1.0
-    conductor_f0: Colour = field(default_factory=_black)
-    conductor_f90: Colour = field(default_factory=_black)
-    conductor_weight: float = 0.0
-    dielectric_weight: float = 0.0
-    dielectric_ior: float = 1.5
-    dielectric_tint: Colour = field(default_factory=_white)
+    The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
+    are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
+    """
+
+    diffuse: Value
+    alpha: Value
+    conductor_f0: Value
+    conductor_f90: Value
+    conductor_weight: Value
+    dielectric_weight: Value
+    dielectric_ior: Value
+    dielectric_tint: Value
+    weight: Value
+    emission: Value
+    translucent: Value
     multiscatter: bool = False
-    emission: Colour = field(default_factory=_black)
+    further: tuple[Surface, ...] = ()
+    normal: Value | None = None  # of all lobes, world space; None: the mesh's own
+    normal_is_own: bool = False  # it is as displacement would turn the mesh's own
 
-    def scaled(self, weight: float) -> Surface:
+    @staticmethod
+    def of(program: Program, **given: Any) -> Surface:
+        """A surface of what is given, black for the rest."""
+        black, zero, one = program.colour((0, 0, 0)), program.number(0.0), program.number(1.0)
+        defaults = {
+            "diffuse": black,
+            "alpha": one,
+            "conductor_f0": black,
+            "conductor_f90": black,
+            "conductor_weight": zero,
+            "dielectric_weight": zero,
+            "dielectric_ior": program.number(1.5),
+            "dielectric_tint": program.colour((1, 1, 1)),
+            "weight": one,
+            "emission": black,
+            "translucent": black,
+        }
+        return Surface(**(defaults | given))
+
+    @property
+    def program(self) -> Program:
+        return self.diffuse.program
+
+    def scaled(self, weight: Value) -> Surface:
         return replace(
             self,
             diffuse=self.diffuse * weight,
@@ -41,39 +71,143 @@ class Surface:
             conductor_f90=self.conductor_f90 * weight,
             conductor_weight=self.conductor_weight * weight,
             dielectric_weight=self.dielectric_weight * weight,
+            weight=self.weight * weight,
             emission=self.emission * weight,
+            translucent=self.translucent * weight,
+            further=tuple(surface.scaled(weight) for surface in self.further),
         )
 
     def gloss(self) -> float:
         """Roughly what the GGX lobe reflects: which of two lobes is the stronger."""
-        f0 = ((self.dielectric_ior - 1) / (self.dielectric_ior + 1)) ** 2
-        return float(np.mean(self.conductor_f0 + self.conductor_f90)) / 2 + self.dielectric_weight * f0
+        f0 = ((_typical(self.dielectric_ior) - 1) / (_typical(self.dielectric_ior) + 1)) ** 2
+        conductor = _typical(self.conductor_f0) + _typical(self.conductor_f90)
+        return conductor / 2 + _typical(self.dielectric_weight) * f0
 
-    def core_material(self, core: Any) -> Any:
-        """A pivot_core.Material."""
-        return core.Material(
-            diffuse=self.diffuse.tolist(),
-            alpha=self.alpha,
-            conductor_f0=self.conductor_f0.tolist(),
-            conductor_f90=self.conductor_f90.tolist(),
-            conductor_weight=self.conductor_weight,
-            dielectric_weight=self.dielectric_weight,
-            dielectric_ior=self.dielectric_ior,
-            dielectric_tint=self.dielectric_tint.tolist(),
-            multiscatter=self.multiscatter,
-            emission=self.emission.tolist(),
+    def bases(self) -> Iterator[Surface]:
+        """Those that reflect, each as a surface of nothing else."""
+        if not self.diffuse.is_always(0) or self.gloss() > 0:
+            black = self.program.colour((0, 0, 0))
+            yield replace(self, emission=black, translucent=black, further=())
+        yield from self.further
+
+    def within(self, lobes: int) -> tuple[Surface, bool]:
+        """The surface with so many lobes beside its base at most, and whether it is the same.
+
+        The highlights of the weakest bases become those of the one before them.
+        """
+        bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
+        most = 1 + lobes - (not self.translucent.is_always(0))
+        if len(bases) <= most:
+            return self, True
+        last = bases[most - 1]
+        for weaker in bases[most:]:
+            last = _as_one(last, weaker)
+        return _surface_of([*bases[: most - 1], last], self), False
+
+    def core_shader(self, core: Any) -> Any:
+        """A pivot_core.Material, or a Shader where something varies over the surface."""
+        lobes = [("base", surface._base_values(), surface._base_settings()) for surface in self.further]
+        if not self.translucent.is_always(0):
+            lobes.append(("translucent", {"color": self.translucent}, {}))
+        own = self._base_values() | {"emission": self.emission}
+        material = core.Material(
+            **_numbers(own),
+            **self._base_settings(),
+            lobes=[(kind, _numbers(values) | settings) for kind, values, settings in lobes],
         )
+        for place, (_, values, _) in enumerate(lobes):
+            own |= {f"lobes.{place}.{name}": value for name, value in values.items()}
+        varying = {name: _registers(value) for name, value in own.items() if not value.is_constant}
+        if self.normal is not None:
+            name = "own_normal" if self.normal_is_own else "normal"
+            varying[name] = _registers(self.program.registers(self.normal))
+        return core.Shader(material, self.program.program, varying) if varying else material
+
+    def _is_light_alone(self) -> bool:
+        """Whether nothing of it is turned by a normal."""
+        return self.translucent.is_always(0) and not list(self.bases())
+
+    def _base_values(self) -> dict[str, Value]:
+        return {name: getattr(self, name) for name in _BASE}
+
+    def _base_settings(self) -> dict[str, bool]:
+        return {"multiscatter": self.multiscatter}
+
+
+def _typical(value: Value) -> float:
+    """The mean of a value's numbers, those that vary taken for 0.5."""
+    return float(np.mean([0.5 if isinstance(part, Register) else part for part in value.parts]))
+
+
+def _numbers(values: dict[str, Value]) -> dict[str, Any]:
+    """What stands for those parts that vary must only be valid: each is replaced at every place."""
+    numbers = {
+        name: [1.0 if isinstance(part, Register) else part for part in value.parts] for name, value in values.items()
+    }
+    return {name: parts[0] if len(parts) == 1 else tuple(parts) for name, parts in numbers.items()}
+
+
+def _registers(value: Value) -> list[int]:
+    return [part.index if isinstance(part, Register) else -1 for part in value.parts]
 
 
 def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
-    """The sum of two, and whether it is exact: where their GGX lobes differ in shape, both take the stronger one's."""
+    """The sum of two, and whether it is exact: two normals become the first.
+
+    Bases of which the GGX lobes differ stay beside each other.
+    """
+    bases = list(a.bases())
+    for base in b.bases():
+        place = next((i for i, other in enumerate(bases) if _is_one(other, base)), None)
+        if place is None:
+            bases.append(base)
+        else:
+            bases[place] = _as_one(bases[place], base)
+    reflecting = [surface for surface in (a, b) if not surface._is_light_alone()]
+    normals = [surface.normal for surface in reflecting]
+    beside = Surface.of(
+        a.program,
+        emission=a.emission + b.emission,
+        translucent=a.translucent + b.translucent,
+        normal=next((normal for normal in normals if normal is not None), None),
+    )
+    return _surface_of(bases, beside), len(normals) < 2 or normals[0] == normals[1]
+
+
+def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
+    """Bases, with the emission, the normal and what comes through of another surface."""
+    first, *further = bases or [Surface.of(beside.program)]
+    return replace(
+        first,
+        emission=beside.emission,
+        translucent=beside.translucent,
+        normal=beside.normal,
+        further=tuple(further),
+    )
+
+
+def _is_one(a: Surface, b: Surface) -> bool:
+    """Whether the sum of two bases is a base."""
     strong, weak = (a, b) if a.gloss() >= b.gloss() else (b, a)
     same_lobe = weak.gloss() == 0 or (strong.alpha, strong.multiscatter) == (weak.alpha, weak.multiscatter)
-    dense, thin = (a, b) if a.dielectric_weight >= b.dielectric_weight else (b, a)
-    same_dielectric = thin.dielectric_weight == 0 or (
-        dense.dielectric_ior == thin.dielectric_ior and bool(np.all(dense.dielectric_tint == thin.dielectric_tint))
+    dense, thin = _by_dielectric(a, b)
+    return same_lobe and (
+        thin.dielectric_weight.is_always(0)
+        or (dense.dielectric_ior, dense.dielectric_tint) == (thin.dielectric_ior, thin.dielectric_tint)
     )
-    total = Surface(
+
+
+def _by_dielectric(a: Surface, b: Surface) -> tuple[Surface, Surface]:
+    """The one with more of a dielectric first."""
+    return (a, b) if _typical(a.dielectric_weight) >= _typical(b.dielectric_weight) else (b, a)
+
+
+def _as_one(a: Surface, b: Surface) -> Surface:
+    """The sum of two bases as a base: where their GGX lobes differ in shape, both take the stronger one's."""
+    strong = a if a.gloss() >= b.gloss() else b
+    dense, _ = _by_dielectric(a, b)
+    return Surface.of(
+        a.program,
         diffuse=a.diffuse + b.diffuse,
         alpha=strong.alpha,
         conductor_f0=a.conductor_f0 + b.conductor_f0,
@@ -83,6 +217,5 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
         dielectric_ior=dense.dielectric_ior,
         dielectric_tint=dense.dielectric_tint,
         multiscatter=strong.multiscatter,
-        emission=a.emission + b.emission,
+        weight=a.weight + b.weight,
     )
-    return total, same_lobe and same_dielectric

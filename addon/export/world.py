@@ -1,4 +1,4 @@
-"""The world: light of one colour from everywhere."""
+"""The world: light from everywhere."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from ..report import naming
 from .census import report_left_out
 from .context import Context
 from .nodes import Owner, active_tree
+from .program import Program
 from .shader import light_emission
+from .surface import Surface
 
 
 def export_world(context: Context) -> None:
@@ -21,6 +23,17 @@ def export_world(context: Context) -> None:
     owner = f"world '{world.name}'"
     report_left_out(world, owner, context.reporter)
     tree = active_tree(world)
-    radiance = world.color if tree is None else light_emission(tree, Owner(owner, context.reporter))
+    program = Program(context.core, context.scene, context.images)
+    if tree is None:
+        radiance = program.colour(world.color)
+    else:
+        radiance = light_emission(tree, Owner(owner, context.reporter, program, world))
     with naming(owner, "give its colour and strength finite values"):
-        context.scene.set_world(radiance=list(radiance))
+        if radiance.is_constant:
+            context.scene.set_world(radiance=radiance.numbers)
+        else:
+            if context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
+                context.reporter.warn(
+                    f"{owner}: in the analytic integrator it lights by its mean. Fix: use Monte Carlo"
+                )
+            context.scene.set_world_shader(Surface.of(program, emission=radiance).core_shader(context.core))

@@ -17,22 +17,31 @@ __all__: list[str] = [
     "shading",
     "tables",
     "AreaLight",
+    "Image",
+    "LOBES",
+    "MAX_LOBES",
     "Material",
+    "Program",
     "RenderSettings",
     "Scene",
     "Session",
+    "Shader",
     "SphereLight",
     "SpotLight",
     "SunLight",
     "arch",
+    "ops",
+    "run_op",
     "version",
 ]
 
 class Material:
     """
-    A Lambert lobe beneath one GGX lobe, and emission; colours are linear RGB.
+    A Lambert lobe beneath one GGX lobe, further lobes, and emission; colours are linear RGB.
 
-    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1.
+    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them.
+
+    lobes: up to MAX_LOBES beside these, each a kind and its parameters, as LOBES names them; what is not given is as here, or 1.
     """
     def __init__(
         self,
@@ -54,10 +63,114 @@ class Material:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [1.0, 1.0, 1.0],
         multiscatter: bool = False,
+        weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         emission: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [0.0, 0.0, 0.0],
+        lobes: collections.abc.Sequence[
+            tuple[
+                str,
+                collections.abc.Mapping[
+                    str,
+                    typing.SupportsFloat
+                    | typing.SupportsIndex
+                    | typing.Annotated[
+                        collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+                    ],
+                ],
+            ]
+        ] = [],
     ) -> None: ...
+    def albedo(
+        self,
+        wo_local: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> typing.Annotated[list[float], "FixedSize(3)"]:
+        """
+        About what it sends towards wo_local where all light around is 1, by which lobes are chosen.
+        """
+    def evaluate(
+        self,
+        wo_local: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        wi_local: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> tuple:
+        """
+        BSDF times |cos| (n, 3), and the density of sample() (n, 1), both per steradian; wi_local (n, 3).
+        """
+    def sample(
+        self,
+        wo_local: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        u: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Directions (n, 3) by u (n, 3) in [0, 1): the first number chooses the lobe, the others place it.
+        """
+
+class Image:
+    """
+    A picture that ops of programs look up; immutable.
+    """
+    def __init__(self, pixels: numpy.ndarray, srgb: bool = False) -> None:
+        """
+        pixels (height, width, channels), copied: uint8 and uint16 for 0..1, float16, float32; the first row is the bottom one. Channels: grey; grey, alpha; RGB; RGBA. srgb: the colours are encoded so.
+        """
+    def level(self, index: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (height, width, 4) linear: the picture, and from 1 on its copies of half the size of the one before.
+        """
+    @property
+    def level_count(self) -> int: ...
+    @property
+    def memory_bytes(self) -> int: ...
+
+class Program:
+    """
+    Ops over registers, run at each place of a surface.
+    """
+    def __init__(self) -> None: ...
+    def add(
+        self,
+        op: str,
+        inputs: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+        ],
+        settings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
+        neighbour: typing.SupportsInt | typing.SupportsIndex = 0,
+        image: Image | None = None,
+    ) -> int:
+        """
+        Appends an op and returns its first register. inputs: (register, 0.0), or (-1, a constant), for each number. neighbour 1 and 2: what it would give at the places beside, along two directions; from 3 on: at those of bump_neighbour. image: of an op that looks one up.
+        """
+    def bump_neighbour(self, filter_width: typing.SupportsFloat | typing.SupportsIndex) -> int:
+        """
+        The first of two neighbours along the directions that bump mapping takes, filter_width footprints away.
+        """
+    def run_nowhere(self) -> list[float]:
+        """
+        The registers where there is no surface.
+        """
+
+class Shader:
+    """
+    A Material of which some numbers are a program's registers.
+    """
+    @typing.overload
+    def __init__(self, constants: Material) -> None: ...
+    @typing.overload
+    def __init__(
+        self,
+        constants: Material,
+        program: Program,
+        varying: collections.abc.Mapping[str, collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]],
+    ) -> None:
+        """
+        varying: by the name of Material's argument, the register of each number, -1 for one that is constant; 'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's own.
+        """
 
 class SphereLight:
     """
@@ -139,12 +252,26 @@ class Scene:
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         materials: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         camera_visible: bool = True,
+        color: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ] = [1.0, 1.0, 1.0, 1.0],
+        pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        random: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        particle_index: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        generated: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        uv: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        attributes: collections.abc.Mapping[
+            str, typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"]
+        ] = {},
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
         """
     def add_light(self, name: str, light: SphereLight | SpotLight | SunLight | AreaLight) -> int: ...
-    def add_material(self, name: str, material: Material) -> int: ...
+    def add_material(self, name: str, material: Shader) -> int:
+        """
+        A Material or a Shader.
+        """
     def add_mesh(
         self,
         name: str,
@@ -153,11 +280,16 @@ class Scene:
         triangle_corners: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
         corner_normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
         vertex_normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
-        corner_uvs: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
         triangle_slots: typing.Annotated[numpy.typing.ArrayLike, numpy.int32] | None = None,
+        vertex_attributes: collections.abc.Mapping[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = {},
+        corner_attributes: collections.abc.Mapping[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = {},
     ) -> int:
         """
-        positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals (V, 3), without both flat shading, corner_uvs (C, 2), triangle_slots (T,) material slots. Returns the mesh's id.
+        positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals (V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and (C, 1..4): what shaders read. Returns the mesh's id.
+        """
+    def attribute_id(self, name: str) -> int:
+        """
+        What programs call a mesh's attribute.
         """
     def bent_cones(
         self,
@@ -288,13 +420,17 @@ class Scene:
     def set_light(
         self, id: typing.SupportsInt | typing.SupportsIndex, light: SphereLight | SpotLight | SunLight | AreaLight
     ) -> None: ...
-    def set_material(self, id: typing.SupportsInt | typing.SupportsIndex, material: Material) -> None: ...
+    def set_material(self, id: typing.SupportsInt | typing.SupportsIndex, material: Shader) -> None: ...
     def set_world(
         self,
         radiance: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
     ) -> None: ...
+    def set_world_shader(self, shader: Shader) -> None:
+        """
+        A Shader whose emission is the light from each direction.
+        """
 
 class RenderSettings:
     """
@@ -363,5 +499,36 @@ class Session:
     @property
     def width(self) -> int: ...
 
+def ops() -> dict:
+    """
+    ops(): by name, how many numbers each op of a program takes and gives, and whether it reads where it runs.
+    """
+
+def run_op(
+    name: str,
+    inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    settings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
+    image: Image | None = None,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    run_op(name, inputs, settings=[], image=None): what an op makes of constants, (N, outputs) of inputs (N, inputs).
+    """
+
+LOBES: dict = {
+    "base": {
+        "diffuse": (3, 0.0, 3.4028234663852886e38),
+        "alpha": (1, 0.0, 1.0),
+        "conductor_f0": (3, 0.0, 3.4028234663852886e38),
+        "conductor_f90": (3, 0.0, 3.4028234663852886e38),
+        "conductor_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_ior": (1, 1.0, 3.4028234663852886e38),
+        "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+        "weight": (1, 0.0, 3.4028234663852886e38),
+    },
+    "translucent": {"color": (3, 0.0, 3.4028234663852886e38)},
+}
+MAX_LOBES: int = 3
 arch: str
 version: str

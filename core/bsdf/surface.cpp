@@ -1,99 +1,52 @@
 #include "core/bsdf/surface.h"
 
-#include "core/tables/ggx_albedo.h"
-#include "core/tables/ggx_dielectric.h"
+#include "core/simd/batch.h"
 
 namespace pivot {
 namespace {
 
-/// Hemispherical mean of Schlick's weight, and of the dielectric curve (fit of [KullaConty17], ior in 1..3).
-constexpr float schlick_mean_weight = 1.0f / 21.0f;
+/// A lobe that is there is chosen at least as often as if it had this share of the albedo: its peak may be far above
+/// its mean.
+constexpr float min_albedo_share = 0.1f;
 
+/// A material's lobe as seen from wo; and its mean albedo.
 template <class T>
-T dielectric_mean(T ior) {
-    return (ior - T(1)) / (T(4.08567f) + T(1.00071f) * ior);
-}
-
-/// What single scattering must be multiplied by for the lobe to keep its energy, given its mean Fresnel [KullaConty17].
-template <class T>
-Vec3<T> multiscatter_scale(const Vec3<T>& mean_fresnel, T albedo, T mean_albedo) {
-    const Vec3<T> bounces = mean_fresnel * mean_albedo / (Vec3<T>(T(1)) - mean_fresnel * (T(1) - mean_albedo));
-    return Vec3<T>(T(1)) + bounces * ((T(1) - albedo) / albedo);
-}
-
-/// What the GGX lobe reflects towards wo over what it would without Fresnel. dielectric_share: where the dielectric
-/// stands between normal (0) and grazing incidence (1).
-template <class T>
-Vec3<T> mean_fresnel(const SurfaceOf<T>& surface, T dielectric_share) {
-    const LobeFresnelOf<T>& f = surface.fresnel;
-    return f.schlick_f0 + (f.schlick_f90 - f.schlick_f0) * schlick_weight(surface.wo_local.z) + f.dielectric_f0 +
-           (f.dielectric_f90 - f.dielectric_f0) * dielectric_share;
+T see_lobe(const LobeOf<T>& material, const Vec3<T>& wo_local, LobeOf<T>& seen) {
+    T albedo(0);
+    seen.kind = material.kind;
+    for_each_lobe_kind<T>([&]<class L>(T kind) {
+        const Mask<T> is_kind = material.kind == kind;
+        if (!any(is_kind)) return;
+        const L lobe = L::seen(material.template read<typename L::Parameters>(), wo_local);
+        LobeOf<T> record;
+        record.write(lobe);
+        for (std::size_t i = 0; i < record.numbers.size(); ++i)
+            seen.numbers[i] = select(is_kind, record.numbers[i], seen.numbers[i]);
+        albedo = select(is_kind, mean_component(lobe.albedo(wo_local)), albedo);
+    });
+    return albedo;
 }
 
 }  // namespace
 
 template <class T>
 SurfaceOf<T> make_surface(const MaterialOf<T>& material, const Vec3<T>& wo_local) {
-    const T zero(0), one(1);
-    const Vec3<T> black(zero), white(one);
-    SurfaceOf<T> surface{.wo_local = wo_local,
-                         .diffuse = material.diffuse,
-                         .alpha = min(max(material.alpha, T(min_alpha)), one),
-                         .fresnel = {black, black, black, black, material.dielectric_ior},
-                         .glossy_probability = zero};
-    if (!any(material.has_glossy())) return surface;
-
-    LobeFresnelOf<T>& fresnel = surface.fresnel;
-    const T albedo = ggx_albedo(surface.alpha, wo_local.z);
-    const Mask<T> multiscatter = material.multiscatter > zero;
-    const T mean_albedo = any(multiscatter) ? ggx_average_albedo(surface.alpha) : one;
-    const auto energy_scale = [&](const Vec3<T>& mean) {
-        return any(multiscatter) ? select(multiscatter, multiscatter_scale(mean, albedo, mean_albedo), white) : white;
-    };
-    fresnel.schlick_f0 = material.conductor_f0;
-    fresnel.schlick_f90 = material.conductor_f90;
-    if (any(multiscatter && material.has_conductor())) {
-        const Vec3<T> mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * T(schlick_mean_weight);
-        // The two Fresnel parts are weighted shares of one surface: each part's own mean is over its own weight.
-        const Vec3<T> scale = energy_scale(min(mean / max(material.conductor_weight, T(1e-6f)), white));
-        fresnel.schlick_f0 *= scale;
-        fresnel.schlick_f90 *= scale;
+    SurfaceOf<T> surface{{make_base(material, wo_local)}};
+    if (!any(material.lobes[0].kind > T(0))) return surface;
+    std::array<T, max_lobes> albedo;
+    T base = mean_component(albedo_base(surface)), total = base;
+    for (std::size_t i = 0; i < max_lobes; ++i) {
+        albedo[i] = see_lobe(material.lobes[i], wo_local, surface.lobes[i]);
+        total += albedo[i];
     }
-    const Mask<T> has_dielectric = material.dielectric_weight > zero && material.dielectric_ior > one;
-    T share = zero;
-    if (any(has_dielectric)) {
-        const T weight = select(has_dielectric, material.dielectric_weight, zero);
-        const T f0 = f0_from_ior(fresnel.ior);
-        const Vec3<T> tinted_f0 = f0 * material.dielectric_tint;
-        share = ggx_dielectric_weight(surface.alpha, wo_local.z, fresnel.ior);
-        const T mean_weight = (dielectric_mean(fresnel.ior) - f0) / (one - f0);
-        const Vec3<T> gain = energy_scale(tinted_f0 + (white - tinted_f0) * mean_weight);
-        // What the layer reflects. Cycles takes a lobe without multiple scattering for one that loses nothing.
-        const Vec3<T> layer = (tinted_f0 + (white - tinted_f0) * share) * gain * select(multiscatter, albedo, one);
-        // The diffuse lobe lies on the part that is not conductor, and the dielectric on some or all of that.
-        const T rest = select(material.has_conductor(), max(one - material.conductor_weight, T(1e-6f)), one);
-        const T coverage = min(weight / rest, one);
-        surface.diffuse *= max(zero, one - coverage * max_component(layer));
-        fresnel.dielectric_f90 = gain * weight;
-        fresnel.dielectric_f0 = fresnel.dielectric_f90 * tinted_f0;
-    }
-    const T glossy = mean_component(mean_fresnel(surface, share)) * albedo;
-    const T diffuse = mean_component(surface.diffuse);
-    const T probability = glossy / max(glossy + diffuse, tiny<T>);
-    // A faint lobe keeps a share of the samples: its peak may be far above its mean.
-    surface.glossy_probability =
-        select(diffuse > zero && glossy > zero, min(max(probability, T(0.1f)), T(0.9f)), probability);
+    const auto kept = [&](T part) { return select(part > T(0), max(part, T(min_albedo_share) * total), T(0)); };
+    T sum = kept(base);
+    for (const T& part : albedo) sum += kept(part);
+    for (std::size_t i = 0; i < max_lobes; ++i) surface.lobes[i].probability = kept(albedo[i]) / max(sum, tiny<T>);
     return surface;
 }
 
 template Surface make_surface(const Material&, const Vec3f&);
 template SurfaceOf<Batch> make_surface(const MaterialOf<Batch>&, const Vec3b&);
-
-Rgb glossy_albedo(const Surface& surface) {
-    const LobeFresnel& fresnel = surface.fresnel;
-    const float cos_o = surface.wo_local.z;
-    const float share = fresnel.has_dielectric() ? ggx_dielectric_weight(surface.alpha, cos_o, fresnel.ior) : 0.0f;
-    return mean_fresnel(surface, share) * ggx_albedo(surface.alpha, cos_o);
-}
 
 }  // namespace pivot

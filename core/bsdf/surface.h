@@ -1,95 +1,113 @@
 // A material as seen from one direction: what a shading point needs to evaluate and sample its BSDF, over float or
-// batches. Shading frame, z the normal. Every eval is BRDF times cosine, 1/sr; zero below the surface.
-//
-// The dielectric part darkens the diffuse lobe beneath it by its own directional albedo, and multiple scattering
-// between microfacets scales the lobe back to full energy [KullaConty17]; both follow Cycles 4.5, so that one file
-// looks the same. [KullaConty17]  Revisiting Physically Based Shading at Imageworks
+// batches. Shading frame, z the normal. Its base's product with lights has closed forms; what further lobes it has are
+// evaluated and sampled by what all lobes share.
 #pragma once
 
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/lobe.h"
 #include "core/bsdf/material.h"
-#include "core/sampling/warp.h"
 
 namespace pivot {
 
-/// Fresnel of the GGX lobe: F(c) = schlick(c) + dielectric(c), scales multiplied in.
 template <class T>
-struct LobeFresnelOf {
-    Vec3<T> schlick_f0, schlick_f90;
-    Vec3<T> dielectric_f0, dielectric_f90;
-    T ior;
+struct SurfaceOf : BaseOf<T> {
+    std::array<LobeOf<T>, max_lobes> lobes{};
 
-    Mask<T> has_dielectric() const { return max_component(dielectric_f90) > T(0); }
+    Mask<T> has_lobes() const { return lobes[0].kind > T(0); }
 
-    Vec3<T> at(T cos_theta) const {
-        Vec3<T> f = schlick_f0 + (schlick_f90 - schlick_f0) * schlick_weight(cos_theta);
-        if (any(has_dielectric()))
-            f += dielectric_f0 + (dielectric_f90 - dielectric_f0) * fresnel_dielectric_weight(cos_theta, ior);
-        return f;
+    /// Whether light comes through it.
+    Mask<T> transmits() const {
+        Mask<T> result = T(0) > T(0);
+        for_each_lobe(*this, [&]<class L>(const L&, const LobeOf<T>&, const Mask<T>& is_kind) {
+            if constexpr (L::transmits) result = result || is_kind;
+        });
+        return result;
     }
 };
 
-template <class T>
-struct SurfaceOf {
-    Vec3<T> wo_local;
-    Vec3<T> diffuse;
-    T alpha;
-    LobeFresnelOf<T> fresnel;
-    T glossy_probability;  ///< of choosing the GGX lobe when the BSDF is sampled
-
-    Mask<T> has_diffuse() const { return glossy_probability < T(1); }
-    Mask<T> has_glossy() const { return glossy_probability > T(0); }
-};
-
-using LobeFresnel = LobeFresnelOf<float>;
 using Surface = SurfaceOf<float>;
 
-/// wo_local.z > 0. A black material gives a surface with neither lobe's weight; sampling it yields zero.
+/// Calls visit(lobe, its record, mask) for each lobe beside the base that some lane has: in the lanes of the mask.
+template <class T, class Visit>
+void for_each_lobe(const SurfaceOf<T>& surface, const Visit& visit) {
+    for (const LobeOf<T>& record : surface.lobes) {
+        if (!any(record.kind > T(0))) return;
+        visit_lobe(record, [&](const auto& lobe, const Mask<T>& is_kind) { visit(lobe, record, is_kind); });
+    }
+}
+
+/// wo_local.z > 0. A black material gives a surface with no lobe's weight; sampling it yields zero.
 template <class T>
 SurfaceOf<T> make_surface(const MaterialOf<T>& material, const Vec3<T>& wo_local);
 
-/// Albedo of the GGX lobe towards wo when all light around is equal: what it reflects of a white furnace.
-Rgb glossy_albedo(const Surface& surface);
-
-template <class T>
-Vec3<T> eval_diffuse(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
-    return surface.diffuse * (max(wi_local.z, T(0)) * T(1.0f / pi<float>));
-}
-
-template <class T>
-Vec3<T> eval_glossy(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
-    const Vec3<T> h = normalize(surface.wo_local + wi_local);
-    return select(wi_local.z > T(0),
-                  surface.fresnel.at(dot(surface.wo_local, h)) *
-                      ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha),
-                  Vec3<T>(T(0)));
-}
-
+/// BSDF times |cos|, 1/sr.
 template <class T>
 Vec3<T> eval(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
-    const Vec3<T> diffuse = eval_diffuse(surface, wi_local);
-    const Mask<T> has_glossy = surface.has_glossy();
-    if (!any(has_glossy)) return diffuse;
-    return diffuse + select(has_glossy, eval_glossy(surface, wi_local), Vec3<T>(T(0)));
+    Vec3<T> value = eval_base(surface, wi_local);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        value += select(is_kind, lobe.eval(surface.wo_local, wi_local), Vec3<T>(T(0)));
+    });
+    return value;
 }
 
-/// Density of sample(), both lobes.
+/// Density of sample(), all lobes.
 template <class T>
 T pdf_omega(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
-    const T diffuse = (T(1) - surface.glossy_probability) * max(wi_local.z, T(0)) * T(1.0f / pi<float>);
-    const Mask<T> has_glossy = surface.has_glossy();
-    if (!any(has_glossy)) return diffuse;
-    const T glossy = ggx_pdf_omega(surface.wo_local, wi_local, surface.alpha, surface.alpha);
-    return diffuse + select(has_glossy && wi_local.z > T(0), surface.glossy_probability * glossy, T(0));
+    T of_base = pdf_omega_base(surface, wi_local), of_lobes(0), probability(1);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>& record, const Mask<T>& is_kind) {
+        of_lobes += select(is_kind, record.probability * lobe.pdf_omega(surface.wo_local, wi_local), T(0));
+        probability -= select(is_kind, record.probability, T(0));
+    });
+    return max(probability, T(0)) * of_base + of_lobes;
 }
 
-/// A direction by one of the lobes: u_lobe chooses it, u places it. May lie below the surface.
+/// A direction by one of the lobes: u_lobe chooses it, u places it. Where its density is 0 it may be of any length.
 template <class T>
 Vec3<T> sample(const SurfaceOf<T>& surface, T u_lobe, const Vec2<T>& u) {
-    const Mask<T> glossy = u_lobe < surface.glossy_probability;
-    const Vec3<T> wi_local = sample_cosine_hemisphere(u);
-    if (!any(glossy)) return wi_local;
-    return select(glossy, ggx_sample(surface.wo_local, surface.alpha, surface.alpha, u), wi_local);
+    if (!any(surface.has_lobes())) return sample_base(surface, u_lobe, u);
+    constexpr float below_one = 1.0f - 0x1p-24f;
+    T left(u_lobe), rest(1);  // the base comes after the lobes: what is left of u_lobe there, and of all probability
+    for (const LobeOf<T>& record : surface.lobes) left -= record.probability, rest -= record.probability;
+    Vec3<T> wi_local = sample_base(surface, min(clamp01(left / max(rest, tiny<T>)), T(below_one)), u);
+    // What a lobe samples on a side where it is 0 is no sample of a lobe that is not: at z = 0 no lobe has a density.
+    wi_local.z = max(wi_local.z, T(0));
+    left = u_lobe;
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>& record, const Mask<T>& is_kind) {
+        const Mask<T> is_chosen = is_kind && left >= T(0) && left < record.probability;
+        const T u_part = min(clamp01(left / max(record.probability, tiny<T>)), T(below_one));
+        Vec3<T> chosen = lobe.sample(surface.wo_local, u_part, u);
+        if constexpr (!L::transmits) chosen.z = max(chosen.z, T(0));
+        if constexpr (!L::reflects) chosen.z = min(chosen.z, T(0));
+        wi_local = select(is_chosen, chosen, wi_local);
+        left -= select(is_kind, record.probability, T(0));
+    });
+    return wi_local;
+}
+
+/// What the pass of diffuse colours shows.
+template <class T>
+Vec3<T> diffuse_color(const SurfaceOf<T>& surface) {
+    Vec3<T> color = surface.diffuse;
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        color += select(is_kind, lobe.diffuse(), Vec3<T>(T(0)));
+    });
+    return color;
+}
+
+/// Means over colours of what the lobes beside the base send to the viewer where all light around is 1, by the side
+/// that it comes from.
+template <class T>
+struct LobeAlbedoOf {
+    T above, below;
+};
+template <class T>
+LobeAlbedoOf<T> lobe_albedo(const SurfaceOf<T>& surface) {
+    LobeAlbedoOf<T> albedo{T(0), T(0)};
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        const T mean = select(is_kind, mean_component(lobe.albedo(surface.wo_local)), T(0));
+        if constexpr (L::reflects) albedo.above += mean;
+        if constexpr (L::transmits) albedo.below += mean;
+    });
+    return albedo;
 }
 
 }  // namespace pivot

@@ -1,9 +1,11 @@
 #include "core/integrators/analytic.h"
 
 #include "core/integrators/area_light_shading.h"
+#include "core/integrators/arrival.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/specular_occlusion.h"
 #include "core/sampling/warp.h"
+#include "core/simd/pack.h"
 
 namespace pivot {
 namespace {
@@ -42,6 +44,13 @@ struct Gathered {
         size += size_of(light);
         method += size_of(light) * color_of(how);
         error += size_of(light) * relative_error;
+    }
+    void add(const Gathered& part) {
+        radiance += part.radiance;
+        size += part.size;
+        method += part.method;
+        error += part.error;
+        shadow_variance += part.shadow_variance;
     }
 };
 
@@ -170,45 +179,117 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Fixed
     for (std::size_t i = 0; i < shading.size(); ++i) add_world(scene, settings, points, shading[i], gathered[i]);
 }
 
+/// The point as it is lit from behind. Nothing but a Lambert lobe is seen by way of it: wo_local stays.
+SurfacePoint turned_over(const SurfacePoint& point) {
+    SurfacePoint back = point;
+    back.normal_geometric = -point.normal_geometric;
+    back.frame = {point.frame.x, -point.frame.y, -point.frame.z};
+    back.front = -point.front;
+    return back;
+}
+
+/// A hit surface, for the sample of this index.
+struct HitSurface {
+    std::size_t sample;
+    RayHit hit;
+    SurfacePoint point;
+    Surface surface;
+};
+
+/// What has closed forms, and for which sample: first all bases, so that neighbours stay neighbours, then what further
+/// lobes are.
+struct Parts {
+    std::vector<ShadingPoint> shading;
+    std::vector<std::size_t> sample;
+};
+Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const HitSurface> hits) {
+    Parts parts;
+    const auto add = [&](const HitSurface& of, const SurfacePoint& point, const Base& base) {
+        parts.shading.push_back({point, base, {}});
+        if (settings.occlusion == Occlusion::bent_cone) parts.shading.back().bent_cone = scene.bent_cone(of.hit, point);
+        parts.sample.push_back(of.sample);
+    };
+    for (const HitSurface& hit : hits) add(hit, hit.point, hit.surface);
+    for (const HitSurface& hit : hits)
+        for_each_lobe(hit.surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
+            add(hit, L::transmits ? turned_over(hit.point) : hit.point, lobe.closed_form(hit.surface.wo_local));
+        });
+    return parts;
+}
+
+/// Appends the surfaces of a batch of arrivals, and tells the passes of them. samples: of each arrival.
+void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span<const std::size_t> sample_of,
+         ProgramMemory& memory, std::vector<HitSurface>& surfaces, std::span<Sample> samples) {
+    const ArrivalBatch batch = make_arrivals(scene, arrivals, 0, memory);
+    const auto points = unpack<SurfacePointOf>(batch.point);
+    const auto seen = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
+    const auto materials = unpack<MaterialOf>(batch.material);
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        Sample& sample = samples[sample_of[i]];
+        sample.normal = points[i].frame.z;
+        sample.albedo = diffuse_color(seen[i]);
+        sample.emission = sample.radiance = materials[i].emission;
+        surfaces.push_back({sample_of[i], arrivals[i]->hit, points[i], seen[i]});
+    }
+}
+
 }  // namespace
 
 void shade_analytic(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                     std::uint32_t sample_index, std::span<Sample> samples) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
-    std::vector<ShadingPoint> shading;
-    std::vector<std::size_t> pixel;
+    ProgramMemory memory;
+    std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the sample of each
+    const float spread = scene.camera().pixel_spread();
     for (std::size_t i = 0; i < hits.size(); ++i) {
         Sample& sample = samples[i] = {};
-        if (!hits[i]) {
-            if (settings.transparent_film) sample.alpha = 0.0f;
-            if (!settings.transparent_film) sample.radiance = scene.world();
-            continue;
+        if (hits[i]) {
+            arrivals.push_back({{.direction = camera_rays[i].direction,
+                                 .hit = *hits[i],
+                                 .material = scene.material_of(*hits[i]),
+                                 .footprint_m = spread * hits[i]->distance_m,
+                                 .ray_kind = camera_ray},
+                                i});
+        } else if (settings.transparent_film) {
+            sample.alpha = 0.0f;
+        } else {
+            sample.radiance =
+                world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0, memory.registers);
         }
-        const SurfacePoint point = scene.surface_point(camera_rays[i], *hits[i]);
-        const Material& material = scene.materials()[scene.material_of(*hits[i])];
-        const Surface surface = make_surface(material, point.wo_local);
-        sample.normal = point.frame.z;
-        sample.albedo = surface.diffuse;
-        sample.emission = sample.radiance = material.emission;
-        shading.push_back({point, surface, {}});
-        if (settings.occlusion == Occlusion::bent_cone) shading.back().bent_cone = scene.bent_cone(*hits[i], point);
-        pixel.push_back(i);
     }
+    // A program runs for one material.
+    std::ranges::stable_sort(arrivals, {}, [&](const auto& a) {
+        return scene.shaders()[a.first.material].is_constant() ? 0 : a.first.material + 1;
+    });
+    std::vector<HitSurface> surfaces;
+    std::vector<const Arrival*> ordered;
+    std::vector<std::size_t> order;
+    for (const auto& [arrival, sample] : arrivals) ordered.push_back(&arrival), order.push_back(sample);
+    for (std::size_t first = 0; first < ordered.size();) {
+        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
+        const std::size_t count = batch_count(scene, rest);
+        see(scene, rest.first(count), std::span<const std::size_t>(order).subspan(first, count), memory, surfaces,
+            samples);
+        first += count;
+    }
+    const auto [shading, sample_of] = parts_of(scene, settings, surfaces);
+    std::vector<Gathered> light(samples.size());
     const FixedPoints points(settings, sample_index);
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
         std::array<Gathered, batch_size> gathered{};
         shade_batch(scene, settings, points, std::span(shading).subspan(first, count),
                     std::span(gathered).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            Sample& sample = samples[pixel[first + i]];
-            const Gathered& light = gathered[i];
-            sample.radiance += light.radiance;
-            sample.method = light.size > 0.0f ? light.method / light.size : Rgb(0.0f);
-            sample.error = light.error;
-            sample.shadow_variance = light.shadow_variance;
-        }
+        for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
+    }
+    for (const HitSurface& surface : surfaces) {
+        Sample& sample = samples[surface.sample];
+        const Gathered& gathered = light[surface.sample];
+        sample.radiance += gathered.radiance;
+        sample.method = gathered.size > 0.0f ? gathered.method / gathered.size : Rgb(0.0f);
+        sample.error = gathered.error;
+        sample.shadow_variance = gathered.shadow_variance;
     }
 }
 

@@ -15,9 +15,10 @@
 
 #include <array>
 
+#include "core/bsdf/surface.h"
+#include "core/geometry/surface_point.h"
 #include "core/integrators/joint_sampling.h"
 #include "core/lights/light.h"
-#include "core/scene/surface_point.h"
 
 namespace pivot {
 

@@ -57,7 +57,7 @@ Batch integrate_ltc(const SurfaceBatch& batch, const Cap<Batch>& cap) {
     const Lanes x = store(cap.axis.x), y = store(cap.axis.y), z = store(cap.axis.z), versine = store(cap.versine);
     Lanes integral;
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const Surface& surface = batch.lanes[i]->surface;
+        const Base& surface = batch.lanes[i]->surface;
         const GgxLtc lobe = ggx_ltc(surface.alpha, surface.wo_local);
         integral[i] =
             lobe.amplitude() * integrate_above_horizon(lobe.lobe_local, Cap<float>{{x[i], y[i], z[i]}, versine[i]});
@@ -73,7 +73,7 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
                 dielectric = store(integral.sums.dielectric), method = store(integral.method);
     reflection.glossy_error = store(integral.predicted_error);
     for (std::size_t i = 0; i < batch.count; ++i) {
-        const Surface& surface = batch.lanes[i]->surface;
+        const Base& surface = batch.lanes[i]->surface;
         reflection.method[i] = static_cast<Method>(method[i]);
         if (!surface.has_glossy()) continue;
         const LobeFresnel& f = surface.fresnel;

@@ -30,7 +30,7 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
     const LightSampler sampler(light, vertex.point, vertex.surface, strategy);
     SharedSample result{.shares = sampler.shares_with_bsdf()};
     const auto place = sampler.sample(u);
-    if (!place || !(place->pdf_omega > 0.0f) || !vertex.point.faces(place->wi)) return result;
+    if (!place || !(place->pdf_omega > 0.0f) || !vertex.is_open_to(place->wi)) return result;
     const float pdf = expected_samples * place->pdf_omega;
     const Vec3f wi_local = vertex.point.frame.to_local(place->wi);
     const float weight = result.shares ? balance(pdf, pdf_omega(vertex.surface, wi_local)) : 1.0f;
@@ -39,7 +39,8 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
     return result;
 }
 
-/// A sample by each vertex, of its own light; the lanes that the closed forms leave out are sampled one by one.
+/// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces that
+/// have more lobes than these know, are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
                                    const LightPicks& picks, std::uint32_t dimension, SharedLamps& shared_lamps) {
     const Vec2b u = vertices.sampler.point(dimension);
@@ -57,12 +58,14 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
         is_area[i] = std::holds_alternative<AreaLight>(*lights[i]);
         left[i] = 1;
     }
+    std::array<bool, batch_size> has_lobes{};
+    if (any(vertices.surface.has_lobes())) has_lobes = store(vertices.surface.has_lobes());
     const auto sample_kind = [&](std::uint8_t area, const auto& sample_lanes) {
         Lanes chosen{}, expected{};
         std::array<const Light*, batch_size> of_kind{};
         const Light* any_light = nullptr;
         for (std::size_t i = 0; i < batch_size; ++i) {
-            const bool is_chosen = lights[i] && is_area[i] == area;
+            const bool is_chosen = lights[i] && is_area[i] == area && !has_lobes[i];
             chosen[i] = is_chosen ? 1.0f : 0.0f;
             expected[i] = is_chosen ? picks.expected_samples[i] : 1.0f;
             if (is_chosen) of_kind[i] = any_light = lights[i];
@@ -127,10 +130,36 @@ void pick_some(const LightTree& tree, std::size_t first, std::size_t count, cons
     }
 }
 
+/// A sample of the world's light by each vertex.
+LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
+                                  const BouncePlan& plan, Registers& registers) {
+    const Environment& environment = scene.environment();
+    const Vec3b wi = environment.sample(vertices.sampler.point(plan.dimensions.world()));
+    const Vec3b wi_local = vertices.point.frame.to_local(wi);
+    const Batch pdf = environment.pdf_omega(wi);
+    const Batch weight =
+        strategy == LightSampling::light ? Batch(1.0f) : balance(pdf, pdf_omega(vertices.surface, wi_local));
+    // One bounce on, as a BSDF sample would meet it.
+    const Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
+    return {.radiance = select(vertices.point.faces(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
+                               Vec3b(Batch(0.0f))),
+            .wi = wi,
+            .reach_m = std::numeric_limits<Batch>::infinity()};
+}
+
 /// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                     SharedLamps& shared_lamps, const Visit& visit) {
+                     SharedLamps& shared_lamps, Registers& registers, const Visit& visit) {
+    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples) {
+        const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
+        visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
+                                    .direction = samples.wi,
+                                    .near_m = Batch(0.0f),
+                                    .far_m = select(adds, samples.reach_m, Batch(0.0f))});
+    };
+    if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
+        visit_with_rays(sample_world(scene, strategy, vertices, plan, registers));
     const std::size_t rounds = plan.lamp_samples + plan.triangle_samples;
     if (rounds == 0) return;
     std::array<LightPicks, max_light_samples> picks;
@@ -143,20 +172,16 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
         std::span(picks).subspan(plan.lamp_samples, plan.triangle_samples));
     for (std::size_t k = 0; k < rounds; ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
-        const LightSampleOf<Batch> samples =
-            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps);
-        const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
-        visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
-                                    .direction = samples.wi,
-                                    .near_m = Batch(0.0f),
-                                    .far_m = select(adds, samples.reach_m, Batch(0.0f))});
+        visit_with_rays(
+            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps));
     }
 }
 
 }  // namespace
 
 BouncePlan plan_bounce(const Scene& scene, std::uint32_t bounce) {
-    return {.dimensions = Dimensions(bounce),
+    return {.bounce = bounce,
+            .dimensions = Dimensions(bounce),
             .lamp_samples = std::min(scene.lamps().size(), bounce == 0 ? max_lamp_samples : 1),
             .triangle_samples = std::min(scene.triangle_lights().size(), bounce == 0 ? max_triangle_samples : 1)};
 }
@@ -172,9 +197,9 @@ float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex&
 }
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared_lamps) {
+                   SharedLamps& shared_lamps, Registers& registers) {
     Vec3b radiance(Batch(0.0f));
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps,
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps, registers,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         // Where no ray is, there is nothing to add.
                         radiance += select(rays.far_m > Batch(0.0f), samples.radiance * scene.visibility(rays),
@@ -184,9 +209,10 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
 }
 
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, SharedLamps& shared_lamps) {
+                                          const VertexBatch& vertices, SharedLamps& shared_lamps,
+                                          Registers& registers) {
     std::vector<LightSample> result;
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps,
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps, registers,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);

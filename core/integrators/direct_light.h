@@ -38,10 +38,10 @@ class SharedLamps {
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared);
+                   SharedLamps& shared, Registers& registers);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, SharedLamps& shared);
+                                          const VertexBatch& vertices, SharedLamps& shared, Registers& registers);
 
 }  // namespace pivot

@@ -15,12 +15,13 @@ struct ReceiverOf {
     Vec3<T> position;
     Frame<T> frame;
     JointSurface<T> surface;
+    LobeAlbedoOf<T> lobes;
 };
 using Receiver = ReceiverOf<Batch>;
 
 template <class T>
 ReceiverOf<T> receiver_at(const VertexOf<T>& vertex) {
-    return {vertex.point.position, vertex.point.frame, joint_surface(vertex.surface)};
+    return {vertex.point.position, vertex.point.frame, joint_surface(vertex.surface), lobe_albedo(vertex.surface)};
 }
 
 /// How much of each light a surface reflects if nothing is in the way, nearly: above 0 for each that reaches it.
@@ -56,7 +57,13 @@ Batch light_importance(const Receiver& receiver, const LightProxy& light) {
         const Batch density = alpha2 / max(Batch(4.0f * pi<float>) * surface.wo_local.z * slope * slope, tiny<Batch>);
         reflected += fresnel * min(density * solid_angle(local), one);
     }
+    // Of further lobes what an even one of their albedo would send on, so that no light that they meet is forgotten.
+    if (any(receiver.lobes.above > zero)) reflected += receiver.lobes.above * cos_surface * sin2;
     reflected = select(local.axis.z + sine > zero, reflected, zero);
+    if (any(receiver.lobes.below > zero)) {
+        const Batch cos_below = select(large, one, min(max(-local.axis.z, Batch(0.5f) * (sine - local.axis.z)), one));
+        reflected += receiver.lobes.below * max(cos_below, zero) * sin2;
+    }
     return reflected * lit * light.radiance;
 }
 

@@ -101,7 +101,9 @@ LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<cons
     const Batch cos_spot = -dot(wi, light.spot_direction);
     const Batch falloff = falloff_of((cos_spot - light.cos_edge) / light.falloff_width) *
                           lerp(Batch(1.0f), max(cos_spot, Batch(0.0f)), light.is_cosine);
-    Vec3b reflected = surface.diffuse * s.diffuse;
+    // What is sampled is the cosine from the frame's normal.
+    const Batch bumped = surface.bump.cosine(s.wi_local) / max(s.wi_local.z, Batch(1e-4f));
+    Vec3b reflected = surface.diffuse * (s.diffuse * bumped);
     if (any(surface.has_glossy())) reflected += surface.fresnel.at(cos_oh) * s.glossy;
     Batch distance = distance_to_sphere(to_center, light.radius_m, wi);
     if (any(is_disk)) distance = select(is_disk, distance_to_facing_disk(to_center, wi), distance);

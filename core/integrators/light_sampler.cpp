@@ -17,15 +17,16 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
       shares_with_bsdf_(strategy != LightSampling::light) {
     if (strategy == LightSampling::bsdf) return;
     diffuse_technique_ = glossy_technique_ = Technique::uniform;
+    const bool has_lobes = surface.has_lobes(), transmits = surface.transmits();
     const auto* placed = std::get_if<AreaLight>(&light);
-    if (placed && !placed->is_two_sided() && strategy == LightSampling::joint) {
+    if (placed && !placed->is_two_sided() && strategy == LightSampling::joint && !transmits) {
         const AreaLight& area = *placed;
         const AreaView<float> view = view_from(area, point);
         if (dot(view.center, view.normal) < 0.0f)
             area_.emplace(joint_surface(surface), view);
         else
             diffuse_technique_ = Technique::none;
-        shares_with_bsdf_ = needs_bsdf_samples(view, surface.wo_local);
+        shares_with_bsdf_ = has_lobes || needs_bsdf_samples(view, surface.wo_local);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -34,9 +35,10 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     // What each lobe reflects of the light, to choose between their techniques.
     float diffuse_share = 0.0f;
     float glossy_share = 0.0f;
-    if (surface.has_diffuse()) {
+    // What covers all that lights the diffuse lobe is also for the lobes beside the base.
+    if (surface.has_diffuse() || has_lobes) {
         diffuse_share = mean_component(surface.diffuse) * clamped_cosine_integral(cap_local_, normal_local) / pi<float>;
-        if (strategy == LightSampling::joint) {
+        if (strategy == LightSampling::joint && !transmits) {
             diffuse_technique_ = Technique::projected;
             // From inside a sphere light the cap is all directions; those that count are the hemisphere.
             const bool inside = cap_local_.versine > 1.0f;
@@ -65,12 +67,13 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
             }
         }
     }
-    shares_with_bsdf_ = strategy == LightSampling::sptd || glossy_technique_ == Technique::uniform;
-    if (strategy == LightSampling::joint && !surface.has_glossy()) shares_with_bsdf_ = false;
+    shares_with_bsdf_ = has_lobes || strategy == LightSampling::sptd || glossy_technique_ == Technique::uniform;
+    if (strategy == LightSampling::joint && !surface.has_glossy() && !has_lobes) shares_with_bsdf_ = false;
     const float total = diffuse_share + glossy_share;
     glossy_probability_ = total > 0.0f ? glossy_share / total : 0.5f;
     if (surface.has_diffuse() && surface.has_glossy())
         glossy_probability_ = std::clamp(glossy_probability_, 0.05f, 0.95f);
+    if (has_lobes) glossy_probability_ = std::min(glossy_probability_, 0.5f);
 }
 
 Vec3f LightSampler::sample_in_cap(Technique technique, const Vec2f& u) const {

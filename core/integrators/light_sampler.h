@@ -12,6 +12,10 @@
 //   light    uniform in the cap   uniform in the cap                   no
 //   bsdf     -                    -                                    BSDF samples alone
 //
+// Lobes beside the base (core/bsdf/lobe.h) are evaluated at the same samples, of which the diffuse lobe's technique is
+// then at least half, and share with BSDF samples always. Of a surface that transmits light that technique is uniform,
+// in the cap or by area, also below the horizon.
+//
 // A joint sample adds at most 10 times the light's radiance, 50 times an area light's. Of a cap above the horizon it
 // adds at most 2.5 times the light's mean where the surface has one lobe, 20 times where it has two (7.1, 26, 2.0
 // and 8.9 measured, over 4e7 samples of 40000 surfaces and lights, 5e8 of 60000 area lights;
@@ -22,13 +26,14 @@
 // sharing in every strategy but light.
 #pragma once
 
+#include "core/bsdf/surface.h"
 #include "core/distributions/elliptic_cone.h"
 #include "core/distributions/projected_cap.h"
 #include "core/distributions/sptd.h"
+#include "core/geometry/surface_point.h"
 #include "core/integrators/area_sampling.h"
 #include "core/integrators/settings.h"
 #include "core/lights/light.h"
-#include "core/scene/surface_point.h"
 
 namespace pivot {
 

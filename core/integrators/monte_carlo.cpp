@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "core/integrators/arrival.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_sampler.h"
 
@@ -14,11 +15,10 @@ constexpr float max_roulette_survival = 0.95f;
 /// A path whose ray has met a surface.
 template <class T>
 struct PathOf {
-    Vec3<T> direction;   ///< of the ray
+    ArrivalOf<T> arrival;
     Vec3<T> throughput;  ///< up to the surface
-    RayHitOf<T> hit;
-    Word<T> material;
-    Word<T> sample;  ///< of the caller's
+    T spread;            ///< how much the footprint grows on the way, m for each m
+    Word<T> sample;      ///< of the caller's
 };
 
 using Path = PathOf<float>;
@@ -29,12 +29,12 @@ using Paths = std::vector<Path>;
 /// Sorts paths by material, stably, by counting: what a batch's lanes have in common is done once for all.
 void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& first_of) {
     for (const Path& path : paths) {
-        if (path.material + 2 > first_of.size()) first_of.resize(path.material + 2);
-        ++first_of[path.material + 1];
+        if (path.arrival.material + 2 > first_of.size()) first_of.resize(path.arrival.material + 2);
+        ++first_of[path.arrival.material + 1];
     }
     std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
     sorted.resize(paths.size());
-    for (const Path& path : paths) sorted[first_of[path.material]++] = path;
+    for (const Path& path : paths) sorted[first_of[path.arrival.material]++] = path;
     std::fill(first_of.begin(), first_of.end(), 0u);
     paths.swap(sorted);
 }
@@ -45,6 +45,7 @@ struct Work {
     const RenderSettings& settings;
     std::span<const Sampler> samplers;
     std::span<Sample> samples;
+    ProgramMemory& memory;
 };
 
 /// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
@@ -83,43 +84,62 @@ Rgb emission_met(const Work& work, const BouncePlan& plan, const Vertex& vertex,
                                   expected_samples(work.scene, plan, vertex, *index), bsdf_pdf_omega);
 }
 
+/// The world's light that BSDF samples meet, weighted where it is sampled too.
+Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, const WordBatch& ray_kind,
+                std::uint32_t bounce) {
+    const Environment& environment = work.scene.environment();
+    const Vec3b radiance = world_radiance(work.scene.world_view(), wi, ray_kind, bounce, work.memory.registers);
+    if (environment.is_dark() || work.settings.light_sampling == LightSampling::bsdf) return radiance;
+    if (work.settings.light_sampling == LightSampling::light) return Vec3b(Batch(0.0f));
+    return radiance * balance(bsdf_pdf_omega, environment.pdf_omega(wi));
+}
+
 /// Up to a batch of paths at their vertices.
 struct PathBatch {
     std::span<const Path> paths;
     PathOf<Batch> lanes;
+    Vec3b emission;
     VertexBatch vertices;
 };
 
-PathBatch make_batch(const Work& work, std::span<const Path> paths) {
+/// How much of a pixel a sample stands for, along an edge.
+float part_of_pixel(const RenderSettings& settings) {
+    return std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(settings.samples)));
+}
+
+/// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
+/// among.
+Batch spread_of_sample(const RenderSettings& settings, const Batch& pdf_omega) {
+    return Batch(part_of_pixel(settings)) * inverse_sqrt(max(Batch(pi<float>) * pdf_omega, Batch(1e-3f)));
+}
+
+PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Path> paths) {
     std::array<const Path*, batch_size> lanes;
-    std::array<HitTriangleOf<float>, batch_size> triangles;
-    std::array<const HitTriangleOf<float>*, batch_size> triangle_lanes;
-    std::array<const Material*, batch_size> materials;
+    std::array<const Arrival*, batch_size> arrivals;
     std::array<Sampler, batch_size> samplers;
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const std::size_t place = std::min(i, paths.size() - 1);
-        lanes[i] = &paths[place];
-        if (i == place) triangles[i] = work.scene.hit_triangle(paths[i].hit);
-        triangle_lanes[i] = &triangles[place];
-        materials[i] = &work.scene.materials()[paths[place].material];
-        samplers[i] = work.samplers[paths[place].sample];
+        lanes[i] = &paths[std::min(i, paths.size() - 1)];
+        arrivals[i] = &lanes[i]->arrival;
+        samplers[i] = work.samplers[lanes[i]->sample];
     }
-    const PathOf<Batch> batch = pack<PathOf>(lanes);
-    const SurfacePointOf<Batch> point =
-        surface_point(pack<HitTriangleOf>(triangle_lanes), batch.hit.barycentric, -batch.direction);
-    const SurfaceOf<Batch> surface = make_surface(pack<MaterialOf>(materials), point.wo_local);
-    return {paths, batch, VertexBatch({sampler_lanes(samplers), point, surface}, paths.size())};
+    const std::size_t count = batch_count(work.scene, std::span(arrivals).first(std::min(batch_size, paths.size())));
+    const ArrivalBatch arrived = make_arrivals(work.scene, std::span(arrivals).first(count), bounce, work.memory);
+    for (std::size_t i = count; i < batch_size; ++i) lanes[i] = lanes[count - 1], samplers[i] = samplers[count - 1];
+    return {paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
+            VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
 }
 
 /// What the passes tell of the first hits, and their own light.
 void see_first_hits(const Work& work, const PathBatch& batch) {
     const auto lanes_of = [](const Vec3b& v) { return std::array{store(v.x), store(v.y), store(v.z)}; };
-    const auto normal = lanes_of(batch.vertices.point.frame.z), albedo = lanes_of(batch.vertices.surface.diffuse);
+    const auto normal = lanes_of(batch.vertices.point.frame.z),
+               albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
+    const auto at = [](const auto& lanes, std::size_t i) { return Rgb(lanes[0][i], lanes[1][i], lanes[2][i]); };
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
-        sample.radiance = sample.emission = work.scene.materials()[batch.paths[i].material].emission;
-        sample.normal = {normal[0][i], normal[1][i], normal[2][i]};
-        sample.albedo = {albedo[0][i], albedo[1][i], albedo[2][i]};
+        sample.radiance = sample.emission = at(emission, i);
+        sample.normal = at(normal, i);
+        sample.albedo = at(albedo, i);
     }
 }
 
@@ -140,6 +160,7 @@ struct Scattered {
     Vec3b throughput;
     Batch pdf_omega;
     BatchMask goes_on;  ///< elsewhere the sample is worth nothing, or not wanted
+    BatchMask is_glossy;
     Batch u_roulette;
 };
 
@@ -150,7 +171,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     const Vec3b wi = vertices.point.frame.to_world(wi_local);
     const Batch zero(0.0f), pdf = pdf_omega(vertices.surface, wi_local);
     const Vec3b throughput = batch.lanes.throughput * eval(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
-    const BatchMask goes_on = wanted && pdf > zero && vertices.point.faces(wi) && max_component(throughput) > zero;
+    const BatchMask goes_on = wanted && pdf > zero && vertices.is_open_to(wi) && max_component(throughput) > zero;
     return {.rays = {.origin = vertices.point.ray_origin(wi),
                      .direction = wi,
                      .near_m = zero,
@@ -158,6 +179,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
             .throughput = throughput,
             .pdf_omega = pdf,
             .goes_on = goes_on,
+            .is_glossy = u_lobe.x < vertices.surface.glossy_probability,
             .u_roulette = u_lobe.y};  // free: the first number chose the lobe
 }
 
@@ -166,11 +188,22 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
             const Scattered& scattered, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
     const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
-    const std::array<Path, batch_size> paths = unpack<PathOf>({.direction = scattered.rays.direction,
-                                                               .throughput = scattered.throughput,
-                                                               .hit = hit,
-                                                               .material = batch.lanes.material,
-                                                               .sample = batch.lanes.sample});
+    const WordBatch ray_kind = select(scattered.is_glossy, WordBatch(glossy_ray), WordBatch(diffuse_ray));
+    const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
+    const std::array<Path, batch_size> paths =
+        unpack<PathOf>({.arrival = {.direction = scattered.rays.direction,
+                                    .hit = hit,
+                                    .material = batch.lanes.arrival.material,
+                                    .footprint_m = batch.lanes.arrival.footprint_m + spread * hit.distance_m,
+                                    .ray_kind = ray_kind},
+                        .throughput = scattered.throughput,
+                        .spread = spread,
+                        .sample = batch.lanes.sample});
+    const BatchMask is_lost = equal(hit.instance, WordBatch(no_instance));
+    Vec3b sky(Batch(0.0f));
+    if (scene.has_world() && any(is_lost))
+        sky =
+            select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
     const Lanes pdf_omega = store(scattered.pdf_omega), u_roulette = store(scattered.u_roulette);
     const Lanes survival = store(min(max_component(scattered.throughput), Batch(max_roulette_survival)));
@@ -178,67 +211,84 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         if (!goes_on[i]) continue;
         Path path = paths[i];
-        const bool is_met = path.hit.instance != no_instance;
-        Rgb light = is_met ? Rgb(0.0f) : scene.world();
+        Arrival& arrival = path.arrival;
+        const bool is_met = arrival.hit.instance != no_instance;
+        Rgb light(0.0f);
         if (!shared.at(i).empty())
-            light += lamps_met(work, shared.at(i), batch.vertices.lane(i), path.direction, pdf_omega[i],
-                               is_met ? path.hit.distance_m : std::numeric_limits<float>::infinity());
+            light += lamps_met(work, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
+                               is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity());
+        bool shines_by_program = false;
         if (is_met) {
-            path.material = scene.material_of(path.hit);
-            const Material& material = scene.materials()[path.material];
-            if (material.is_emissive())
-                light += emission_met(work, plan, batch.vertices.lane(i), path.direction, pdf_omega[i], path.hit,
-                                      material.emission);
+            arrival.material = scene.material_of(arrival.hit);
+            const Shader& shader = scene.shaders()[arrival.material];
+            shines_by_program = shader.has_varying_emission();
+            if (!shines_by_program && shader.is_emissive())
+                light += emission_met(work, plan, batch.vertices.lane(i), arrival.direction, pdf_omega[i], arrival.hit,
+                                      shader.constants.emission);
         }
         r[i] = light.x, g[i] = light.y, b[i] = light.z;
-        if (!is_met || bounce == work.settings.max_bounces) continue;
+        // What shines by its program tells how much when its own batch is shaded.
+        if (!is_met || (bounce == work.settings.max_bounces && !shines_by_program)) continue;
         if (bounce >= first_roulette_bounce) {
             if (u_roulette[i] >= survival[i]) continue;
             path.throughput /= survival[i];
         }
         next.push_back(path);
     }
-    add_light(work, bounce, batch,
-              select(scattered.goes_on, scattered.throughput * Vec3b(load(r), load(g), load(b)), Vec3b(Batch(0.0f))));
-}
-
-/// Traces up to a batch of paths from their vertices on: what light they bring there, and where they go next.
-void trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce, std::span<const Path> paths,
-                  Paths& next) {
-    const PathBatch batch = make_batch(work, paths);
-    if (bounce == 0) see_first_hits(work, batch);
-    SharedLamps shared;
     add_light(
         work, bounce, batch,
-        batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shared));
+        select(scattered.goes_on, scattered.throughput * (sky + Vec3b(load(r), load(g), load(b))), Vec3b(Batch(0.0f))));
+}
+
+/// Traces a batch of paths from their vertices on, as many as it says: what light they bring there, and where they go
+/// next.
+std::size_t trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce, std::span<const Path> paths,
+                         Paths& next) {
+    const PathBatch batch = make_batch(work, bounce, paths);
+    const std::size_t count = batch.paths.size();
+    if (bounce == 0)
+        see_first_hits(work, batch);
+    else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
+        add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission);
+    if (bounce > work.settings.max_bounces) return count;
+    SharedLamps shared;
+    add_light(work, bounce, batch,
+              batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
+                                                    shared, work.memory.registers));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     Lanes wanted{};
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const bool is_last = bounce == work.settings.max_bounces;
         wanted[i] = !is_last || work.scene.has_unsampled_light() || !shared.at(i).empty() ? 1.0f : 0.0f;
     }
     const BatchMask is_wanted = load(wanted) > Batch(0.0f);
-    if (!any(is_wanted)) return;
+    if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
     if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shared, next);
+    return count;
 }
 
 /// The camera's rays; those that meet nothing end here.
 void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& paths) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     work.scene.intersect(camera_rays, visible_to_camera, hits);
+    const float spread = work.scene.camera().pixel_spread() * part_of_pixel(work.settings);
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = work.samples[i] = {};
         if (hits[i]) {
-            paths.push_back({.direction = camera_rays[i].direction,
+            paths.push_back({.arrival = {.direction = camera_rays[i].direction,
+                                         .hit = *hits[i],
+                                         .material = work.scene.material_of(*hits[i]),
+                                         .footprint_m = spread * hits[i]->distance_m,
+                                         .ray_kind = camera_ray},
                              .throughput = Rgb(1.0f),
-                             .hit = *hits[i],
-                             .material = work.scene.material_of(*hits[i]),
+                             .spread = spread,
                              .sample = static_cast<std::uint32_t>(i)});
         } else if (work.settings.transparent_film) {
             sample.alpha = 0.0f;
         } else {
-            sample.radiance = work.scene.world();
+            sample.radiance =
+                world_radiance(work.scene.world_view(), camera_rays[i].direction, camera_ray, 0, work.memory.registers);
         }
     }
 }
@@ -247,7 +297,8 @@ void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& path
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
-    const Work work{scene, settings, samplers, samples};
+    ProgramMemory memory;
+    const Work work{scene, settings, samplers, samples, memory};
     Paths paths, next;
     std::vector<std::uint32_t> material_counts;
     start_paths(work, camera_rays, paths);
@@ -255,9 +306,8 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
         sort_by_material(paths, next, material_counts);
         next.clear();
         const BouncePlan plan = plan_bounce(scene, bounce);
-        for (std::size_t first = 0; first < paths.size(); first += batch_size)
-            trace_bounce(work, plan, bounce,
-                         std::span(paths).subspan(first, std::min(batch_size, paths.size() - first)), next);
+        for (std::span<const Path> left(paths); !left.empty();)
+            left = left.subspan(trace_bounce(work, plan, bounce, left, next));
         paths.swap(next);
     }
 }

@@ -12,7 +12,7 @@ const Cap<float> horizon{Vec3f(0.0f, 0.0f, 1.0f), 1.0f};
 float share(float part, float whole) { return whole > 0.0f ? clamp01(part / whole) : 0.0f; }
 
 /// Both caps in the shading frame.
-SeenShare seen_share_of_cap(const Cap<float>& light, const Cap<float>& bent_cone, const Surface& surface) {
+SeenShare seen_share_of_cap(const Cap<float>& light, const Cap<float>& bent_cone, const Base& surface) {
     SeenShare seen{};
     if (surface.has_diffuse()) {
         const std::array<Cap<float>, 2> both{light, bent_cone};
@@ -42,14 +42,13 @@ Cap<float> cap_like(const AreaLight& light, const Vec3f& position) {
 
 }  // namespace
 
-SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point,
-                     const Surface& surface) {
+SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface) {
     const auto cap = cap_from(light, point.position);
     return seen_share_of_cap(to_local(point.frame, cap ? *cap : cap_like(std::get<AreaLight>(light), point.position)),
                              to_local(point.frame, bent_cone), surface);
 }
 
-SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Surface& surface) {
+SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface) {
     return seen_share_of_cap(horizon, to_local(point.frame, bent_cone), surface);
 }
 

@@ -5,9 +5,10 @@
 // as a share of its mass in light and horizon, it serves whatever integrates the light better than one SPTD does.
 #pragma once
 
+#include "core/bsdf/surface.h"
 #include "core/distributions/cap.h"
+#include "core/geometry/surface_point.h"
 #include "core/lights/light.h"
-#include "core/scene/surface_point.h"
 
 namespace pivot {
 
@@ -17,10 +18,9 @@ struct SeenShare {
 };
 
 /// bent_cone: world space, of Scene::bent_cone. An area light counts as a cap of its direction and solid angle.
-SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point,
-                     const Surface& surface);
+SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface);
 
 /// The same of light from all around.
-SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Surface& surface);
+SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface);
 
 }  // namespace pivot

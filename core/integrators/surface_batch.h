@@ -4,16 +4,18 @@
 #include <array>
 #include <span>
 
+#include "core/bsdf/surface.h"
+#include "core/geometry/surface_point.h"
 #include "core/integrators/settings.h"
-#include "core/scene/surface_point.h"
 #include "core/shading/ggx_cap_light.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
 
+/// A surface, or the part of one that a lobe beside its base is.
 struct ShadingPoint {
     SurfacePoint point;
-    Surface surface;
+    Base surface;
     Cap<float> bent_cone;  ///< world space, where occlusion is by bent cones
 };
 
@@ -48,7 +50,7 @@ inline SurfaceBatch make_batch(std::span<const ShadingPoint> points) {
     batch.count = points.size();
     for (std::size_t i = 0; i < batch_size; ++i) batch.lanes[i] = &points[std::min(i, points.size() - 1)];
     const auto point = [&](std::size_t i) -> const SurfacePoint& { return batch.lanes[i]->point; };
-    const auto surface = [&](std::size_t i) -> const Surface& { return batch.lanes[i]->surface; };
+    const auto surface = [&](std::size_t i) -> const Base& { return batch.lanes[i]->surface; };
     batch.position = gather_vector([&](std::size_t i) { return point(i).position; });
     batch.frame = {gather_vector([&](std::size_t i) { return point(i).frame.x; }),
                    gather_vector([&](std::size_t i) { return point(i).frame.y; }),

@@ -3,8 +3,9 @@
 
 #include <optional>
 
+#include "core/bsdf/surface.h"
+#include "core/geometry/surface_point.h"
 #include "core/sampling/sobol.h"
-#include "core/scene/surface_point.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
@@ -15,15 +16,17 @@ inline constexpr std::size_t max_lamp_samples = 8;
 inline constexpr std::size_t max_triangle_samples = 2;
 inline constexpr std::size_t max_light_samples = max_lamp_samples + max_triangle_samples;
 
-/// Sampler dimensions of one bounce: the BSDF's two, the choice of lights, then one per light sample.
+/// Sampler dimensions of one bounce: the BSDF's two, the choice of lights, one per light sample, the
+/// world's.
 struct Dimensions {
     std::uint32_t base;
 
-    explicit Dimensions(std::uint32_t bounce) : base(1 + bounce * (3 + max_light_samples)) {}
+    explicit Dimensions(std::uint32_t bounce) : base(1 + bounce * (4 + max_light_samples)) {}
 
     std::uint32_t lobe() const { return base; }
     std::uint32_t direction() const { return base + 1; }
     std::uint32_t light_choice() const { return base + 2; }
+    std::uint32_t world() const { return base + 3 + max_light_samples; }
     std::uint32_t light_place(std::size_t light_sample) const {
         return base + 3 + static_cast<std::uint32_t>(light_sample);
     }
@@ -31,6 +34,7 @@ struct Dimensions {
 
 /// How all vertices of a bounce are sampled.
 struct BouncePlan {
+    std::uint32_t bounce;
     Dimensions dimensions;
     std::size_t lamp_samples;      ///< as many as there are lamps: one of each; fewer: as chosen
     std::size_t triangle_samples;  ///< likewise
@@ -42,6 +46,13 @@ struct VertexOf {
     SamplerOf<Word<T>> sampler;
     SurfacePointOf<T> point;
     SurfaceOf<T> surface;
+
+    /// Whether light from wi may reach the viewer: from the side where both the shading and the true surface face the
+    /// viewer, or, through the surface, from where neither does. Elsewhere light would leak.
+    Mask<T> is_open_to(const Vec3<T>& wi) const {
+        const Mask<T> faces = point.faces(wi), transmits = surface.transmits();
+        return any(transmits) ? faces || (transmits && point.faces(-wi)) : faces;
+    }
 };
 
 using Vertex = VertexOf<float>;
@@ -49,6 +60,11 @@ using Vertex = VertexOf<float>;
 /// Vertices of one bounce side by side; lanes past `count` repeat the last.
 class VertexBatch : public VertexOf<Batch> {
    public:
+    VertexBatch(const SamplerOf<WordBatch>& samplers, const SurfacePointOf<Batch>& points,
+                const MaterialOf<Batch>& materials, const DiffuseBumpOf<Batch>& bump, std::size_t count)
+        : VertexOf<Batch>{samplers, points, make_surface(materials, points.wo_local)}, count_(count) {
+        surface.bump = bump;
+    }
     VertexBatch(const VertexOf<Batch>& vertices, std::size_t count) : VertexOf<Batch>(vertices), count_(count) {}
 
     std::size_t count() const { return count_; }
@@ -56,7 +72,9 @@ class VertexBatch : public VertexOf<Batch> {
 
     /// One of them.
     const Vertex& lane(std::size_t i) const {
-        if (!lanes_) lanes_ = unpack<VertexOf>(*this);
+        constexpr std::size_t without_lobes = all_numbers<VertexOf> - max_lobes * all_numbers<LobeOf>;
+        if (!lanes_)
+            lanes_ = any(surface.has_lobes()) ? unpack<VertexOf>(*this) : unpack<VertexOf, without_lobes>(*this);
         return (*lanes_)[i];
     }
 

@@ -13,6 +13,12 @@ struct TransformOf {
     Vec3<T> point(const Vec3<T>& p) const { return linear * p + translation; }
     Vec3<T> vector(const Vec3<T>& v) const { return linear * v; }
 
+    /// Of one that has an inverse.
+    TransformOf inverse() const {
+        const Mat3<T> back = glm::inverse(linear);
+        return {back, -(back * translation)};
+    }
+
     /// Whether the inverse holds in float: false for an object scaled flat, or to nothing.
     bool is_invertible() const {
         const T determinant = dot(linear[0], cross(linear[1], linear[2]));

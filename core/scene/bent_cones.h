@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "core/distributions/cap.h"
+#include "core/geometry/surface_point.h"
 #include "core/scene/ray_tracer.h"
-#include "core/scene/surface_point.h"
 
 namespace pivot {
 

@@ -3,6 +3,7 @@
 
 #include "core/math/transform.h"
 #include "core/scene/ray_tracer.h"
+#include "core/shaders/place.h"
 
 namespace pivot {
 
@@ -31,6 +32,15 @@ struct Camera {
         return {world_from_camera.translation, normalize(world_from_camera.vector(through)), clip_start_m * slant,
                 clip_end_m * slant};
     }
+
+    /// What shaders ask of it.
+    CameraFacts facts() const {
+        const Vec2f scale(1.0f / (right - left), 1.0f / (top - bottom));
+        return {world_from_camera, world_from_camera.inverse(), scale, Vec2f(-left, -bottom) * scale, clip_start_m};
+    }
+
+    /// How wide a pixel is, per m from the camera.
+    float pixel_spread() const { return (right - left) / static_cast<float>(width); }
 
     /// Distance in front of the camera along its axis.
     float depth_m(const Vec3f& point) const {

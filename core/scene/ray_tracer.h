@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "core/geometry/mesh.h"
 #include "core/math/transform.h"
-#include "core/scene/mesh.h"
 #include "core/simd/batch.h"
 
 namespace pivot {

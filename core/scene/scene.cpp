@@ -36,6 +36,9 @@ void require_valid(const Mesh& mesh) {
     };
     check_indices(mesh.triangles, mesh.vertex_count(), "vertex");
     if (!mesh.corner_normals.empty()) check_indices(mesh.triangle_corners, mesh.corner_normals.size(), "corner");
+    for (const Attribute& attribute : mesh.attributes)
+        check_indices(attribute.at_corners ? mesh.triangle_corners : mesh.triangles,
+                      attribute.values.size() / attribute.width, attribute.at_corners ? "corner" : "vertex");
     const auto check_normals = [&](const std::vector<Vec3f>& normals, const char* what) {
         for (std::size_t i = 0; i < normals.size(); ++i) {
             if (!is_finite(normals[i]))
@@ -51,7 +54,7 @@ void require_valid(const std::string& name, const Material& material) {
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
         !valid(material.dielectric_tint) || !is_finite(material.emission) || !std::isfinite(material.alpha) ||
         !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
-        !(material.conductor_weight >= 0.0f)) {
+        !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
     if (material.alpha < 0.0f || material.alpha > 1.0f)
@@ -111,19 +114,26 @@ std::uint32_t Scene::add_mesh(Mesh mesh) {
     return id;
 }
 
-std::uint32_t Scene::add_material(const std::string& name, const Material& material) {
+std::uint32_t Scene::attribute_id(const std::string& name) {
+    const auto id = static_cast<std::uint32_t>(std::ranges::find(attribute_names_, name) - attribute_names_.begin());
+    if (id == attribute_names_.size()) attribute_names_.push_back(name);
+    return id;
+}
+
+std::uint32_t Scene::add_material(const std::string& name, Shader shader) {
     const auto edit = begin_edit();
-    require_valid(name, material);
-    materials_.push_back(material);
-    return static_cast<std::uint32_t>(materials_.size() - 1);
+    require_valid(name, shader.constants);
+    shaders_.push_back(std::move(shader));
+    return static_cast<std::uint32_t>(shaders_.size() - 1);
 }
 
 void Scene::require_materials(const Instance& instance) const {
     if (instance.materials.empty()) throw std::invalid_argument("object '" + instance.name + "' has no material id");
-    for (const std::uint32_t material : instance.materials) at(materials_, material, "material");
+    for (const std::uint32_t material : instance.materials) at(shaders_, material, "material");
 }
 
-std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transform> world_from_objects) {
+std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transform> world_from_objects,
+                                   std::span<const ObjectFacts> facts) {
     const auto edit = begin_edit();
     for (const Transform& transform : world_from_objects) require_finite(transform, like.name);
     at(meshes_, like.mesh, "mesh");
@@ -134,6 +144,7 @@ std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transfo
         Instance& instance = *instances_.emplace_back(like);
         instance.world_from_object = transform;
         instance.normal_matrix = transform.normal_matrix();
+        instance.facts = facts[instances_.size() - 1 - first];
     }
     instance_lights_.resize(instances_.size());
     bent_cones_.clear();
@@ -147,12 +158,13 @@ std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
     return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }
 
-void Scene::set_material(std::uint32_t id, const Material& material) {
+void Scene::set_material(std::uint32_t id, Shader shader) {
     const auto edit = begin_edit();
-    require_valid(std::to_string(id), material);
-    Material& edited = at(materials_, id, "material");
-    const bool changes_lights = edited.emission != material.emission;
-    edited = material;
+    require_valid(std::to_string(id), shader.constants);
+    Shader& edited = at(shaders_, id, "material");
+    const bool changes_lights = edited.constants.emission != shader.constants.emission ||
+                                edited.has_varying_emission() != shader.has_varying_emission();
+    edited = std::move(shader);
     if (!changes_lights) return;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (instances_[i] && std::ranges::find(instances_[i]->materials, id) != instances_[i]->materials.end())
@@ -210,10 +222,13 @@ void Scene::remove_light(std::uint32_t id) {
     are_lamps_stale_ = true;
 }
 
-void Scene::set_world(const Rgb& radiance) {
+void Scene::set_world(Shader shader) {
     const auto edit = begin_edit();
-    if (!is_finite(radiance)) throw std::invalid_argument("world: its radiance is not finite");
-    world_ = radiance;
+    WorldLight light = measure_world({shader, camera_facts_});
+    shader.constants.emission = light.mean;
+    if (!is_finite(shader.constants.emission)) throw std::invalid_argument("world: its radiance is not finite");
+    world_ = std::move(shader);
+    environment_ = std::move(light.environment);
 }
 
 void Scene::set_camera(const Camera& camera) {
@@ -230,6 +245,7 @@ void Scene::set_camera(const Camera& camera) {
             "camera: view_plane must be (left, right, bottom, top) with left < right, bottom < top");
     }
     camera_ = camera;
+    camera_facts_ = camera.facts();
 }
 
 void Scene::commit() {
@@ -254,10 +270,15 @@ void Scene::commit_lamps() {
 
 void Scene::commit_triangle_lights() {
     bool changes = false;
+    has_emissive_mesh_ = false;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         InstanceLights& own = instance_lights_[i];
-        own.is_stale = own.is_stale && (own.count > 0 || shines(i));
+        if (own.is_stale) {
+            own.shines = shines(i);
+            own.is_stale = own.count > 0 || own.shines;
+        }
         changes = changes || own.is_stale;
+        has_emissive_mesh_ = has_emissive_mesh_ || own.shines;
     }
     if (!changes) return;
     std::vector<Light> lights;
@@ -265,7 +286,9 @@ void Scene::commit_triangle_lights() {
         InstanceLights& own = instance_lights_[i];
         const std::size_t first = lights.size();
         if (own.is_stale) {
-            own = shines(i) ? append_triangle_lights(*instances_[i], lights) : InstanceLights{};
+            const bool shines = own.shines;
+            own = shines ? append_triangle_lights(*instances_[i], lights) : InstanceLights{};
+            own.shines = shines;
         } else {
             const auto begin = triangle_lights_.begin() + static_cast<std::ptrdiff_t>(own.first);
             lights.insert(lights.end(), begin, begin + static_cast<std::ptrdiff_t>(own.count));
@@ -281,7 +304,7 @@ void Scene::commit_triangle_lights() {
 bool Scene::shines(std::size_t instance) const {
     const auto& present = instances_[instance];
     if (!present || (present->visibility & visible_to_light) == 0) return false;
-    return std::ranges::any_of(present->materials, [&](std::uint32_t id) { return materials_[id].is_emissive(); });
+    return std::ranges::any_of(present->materials, [&](std::uint32_t id) { return shaders_[id].is_emissive(); });
 }
 
 std::uint32_t Scene::material_of(const RayHit& hit) const {
@@ -300,11 +323,12 @@ Scene::InstanceLights Scene::append_triangle_lights(const Instance& instance, st
     InstanceLights own;
     own.light_of_triangle.assign(mesh.triangles.size(), no_light);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Material& material = materials_[material_of(instance, i)];
-        if (!material.is_emissive()) continue;
+        const Shader& shader = shaders_[material_of(instance, i)];
+        // What varies over a triangle is found by BSDF samples alone.
+        if (shader.has_varying_emission() || !shader.constants.is_emissive()) continue;
         const Triangle& t = mesh.triangles[i];
         const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
-        const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, material.emission);
+        const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, shader.constants.emission);
         if (!light) continue;
         own.light_of_triangle[i] = static_cast<std::uint32_t>(lights.size() - first);
         lights.push_back(*light);

@@ -10,7 +10,7 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
-#include "core/scene/surface_point.h"
+#include "core/shaders/world.h"
 
 namespace pivot {
 
@@ -20,6 +20,7 @@ struct Instance {
     Transform world_from_object;
     std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
     std::uint32_t visibility;
+    ObjectFacts facts{};
     Mat3<float> normal_matrix{1.0f};  ///< of world_from_object; the scene sets it
 };
 
@@ -31,18 +32,23 @@ struct NamedLight {
 class Scene {
    public:
     std::uint32_t add_mesh(Mesh mesh);
-    std::uint32_t add_material(const std::string& name, const Material& material);
-    /// An instance for each transform, else like the one given. Returns the first of their ids, which are consecutive.
-    std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects);
+    /// The id of a mesh's attribute by its name, the same for all meshes.
+    std::uint32_t attribute_id(const std::string& name);
+    std::uint32_t add_material(const std::string& name, Shader shader);
+    /// An instance for each transform and its facts, else like the one given. Returns the first of their ids, which are
+    /// consecutive.
+    std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects,
+                                std::span<const ObjectFacts> facts);
     std::uint32_t add_light(const std::string& name, const Light& light);
-    void set_material(std::uint32_t id, const Material& material);
+    void set_material(std::uint32_t id, Shader shader);
     void set_light(std::uint32_t id, const Light& light);
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
     void set_instance_visibility(std::uint32_t id, std::uint32_t visibility);
     void set_instance_materials(std::uint32_t id, const std::vector<std::uint32_t>& materials);
     void remove_instance(std::uint32_t id);
     void remove_light(std::uint32_t id);
-    void set_world(const Rgb& radiance);
+    /// Its emission is the light from everywhere.
+    void set_world(Shader shader);
     void set_camera(const Camera& camera);
 
     /// Makes the scene ready for rays, to be called by who holds it. What no edit has touched stays as it is. Of
@@ -53,8 +59,13 @@ class Scene {
     void trace_bent_cones(const std::function<bool()>& should_stop);
 
     const Camera& camera() const { return camera_; }
-    const Rgb& world() const { return world_; }
-    bool has_world() const { return max_component(abs(world_)) > 0.0f; }
+    const CameraFacts& camera_facts() const { return camera_facts_; }
+    WorldView world_view() const { return {world_, camera_facts_}; }
+    /// The world's radiance where it is the same all around, else its mean.
+    const Rgb& world() const { return world_.constants.emission; }
+    bool has_world() const { return world_.is_emissive(); }
+    /// Where the world's light comes from; dark where it is the same all around.
+    const Environment& environment() const { return environment_; }
     /// The lights that were added, in that order.
     std::span<const Light> lamps() const { return lamps_; }
     std::span<const Light> triangle_lights() const { return triangle_lights_; }
@@ -68,7 +79,7 @@ class Scene {
     const LightTree& lamp_tree() const { return lamp_tree_; }
     const LightTree& triangle_tree() const { return triangle_tree_; }
     /// Whether light comes from where no light samples are drawn: the world or an emissive mesh.
-    bool has_unsampled_light() const { return has_world() || !triangle_lights_.empty(); }
+    bool has_unsampled_light() const { return has_world() || has_emissive_mesh_; }
     const std::string& instance_name(std::uint32_t id) const { return instances_[id]->name; }
 
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const { return ray_tracer_.intersect(ray, from); }
@@ -88,9 +99,11 @@ class Scene {
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
         return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
     }
-    /// Every material; an id is its place.
-    std::span<const Material> materials() const { return materials_; }
+    /// What every material means; an id is its place.
+    std::span<const Shader> shaders() const { return shaders_; }
     std::uint32_t material_of(const RayHit& hit) const;
+    const Mesh& mesh_of(const RayHit& hit) const { return *meshes_[instances_[hit.instance]->mesh]; }
+    const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
         return bent_cones_[hit.instance]->at(hit, point.front > 0.0f);
@@ -101,6 +114,7 @@ class Scene {
     /// The triangles of an instance that shine: a part of triangle_lights_.
     struct InstanceLights {
         bool is_stale = true;  ///< by an edit since the last commit
+        bool shines = false;   ///< with triangles that are sampled, or only found
         std::size_t first = 0, count = 0;
         std::vector<std::uint32_t> light_of_triangle;  ///< counted from `first`; empty: none shines
     };
@@ -117,17 +131,21 @@ class Scene {
     LightReach light_reach() const;
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
-    std::vector<Material> materials_;
+    std::vector<std::string> attribute_names_;
+    std::vector<Shader> shaders_;
     std::vector<std::optional<Instance>> instances_;
     std::vector<NamedLight> added_lights_;
     bool are_lamps_stale_ = false;
     std::vector<Light> lamps_, triangle_lights_;
+    bool has_emissive_mesh_ = false;
     LightTree lamp_tree_, triangle_tree_;
     std::vector<InstanceLights> instance_lights_;       ///< of each instance
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     LightReach bent_cone_reach_;                        ///< that these were traced with
-    Rgb world_{0.0f};
+    Shader world_{Material{}};
+    Environment environment_;
     Camera camera_;
+    CameraFacts camera_facts_;
     RayTracer ray_tracer_;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
     int holders_ = 0;

@@ -62,6 +62,14 @@ using Word = std::conditional_t<std::is_same_v<T, Batch>, WordBatch, std::uint32
 template <class T>
 using Index = std::conditional_t<std::is_same_v<T, Batch>, IndexBatch, std::int32_t>;
 
+inline WordBatch select(const BatchMask& condition, const WordBatch& a, const WordBatch& b) {
+    return std::bit_cast<WordBatch>(xsimd::select(condition, std::bit_cast<Batch>(a), std::bit_cast<Batch>(b)));
+}
+inline IndexBatch select(const BatchMask& condition, const IndexBatch& a, const IndexBatch& b) {
+    return std::bit_cast<IndexBatch>(xsimd::select(condition, std::bit_cast<Batch>(a), std::bit_cast<Batch>(b)));
+}
+inline BatchMask equal(const WordBatch& a, const WordBatch& b) { return std::bit_cast<BatchMask>(a == b); }
+
 /// The place that a whole number names.
 inline std::int32_t to_index(float x) { return static_cast<std::int32_t>(x); }
 inline IndexBatch to_index(const Batch& x) { return xsimd::to_int(x); }

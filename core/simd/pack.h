@@ -39,12 +39,11 @@ inline std::array<Batch, 4> transpose(const std::array<Batch, 4>& r) {
             join_last(ab_last, cd_last)};
 }
 
-/// Calls visit(first) with where each group of four numbers starts; the last overlaps the one before.
-template <class One, class Visit>
+/// Calls visit(first) with where each group of four of so many numbers starts; the last overlaps the one before.
+template <class One, std::size_t numbers, class Visit>
 void for_each_four(const Visit& visit) {
     static_assert(std::is_trivially_copyable_v<One> && sizeof(One) % sizeof(float) == 0);
-    constexpr std::size_t numbers = sizeof(One) / sizeof(float);
-    static_assert(numbers >= 4);
+    static_assert(numbers >= 4 && numbers <= sizeof(One) / sizeof(float));
     for (std::size_t first = 0; first + 4 <= numbers; first += 4) visit(first);
     if constexpr (numbers % 4 != 0) visit(numbers - 4);
 }
@@ -52,29 +51,33 @@ void for_each_four(const Visit& visit) {
 }  // namespace detail
 
 template <template <class> class S>
+inline constexpr std::size_t all_numbers = sizeof(S<float>) / sizeof(float);
+
+/// Of each the first `numbers`, or all; others keep what an S<Batch> starts with.
+template <template <class> class S, std::size_t numbers = all_numbers<S>>
 S<Batch> pack(const std::array<const S<float>*, batch_size>& lanes) {
     static_assert(sizeof(S<Batch>) == batch_size * sizeof(S<float>));
     S<Batch> packed;
-    auto* numbers = reinterpret_cast<std::byte*>(&packed);
-    detail::for_each_four<S<float>>([&](std::size_t first) {
+    auto* bytes = reinterpret_cast<std::byte*>(&packed);
+    detail::for_each_four<S<float>, numbers>([&](std::size_t first) {
         const auto from = [&](std::size_t lane) { return reinterpret_cast<const float*>(lanes[lane]) + first; };
         std::array<Batch, 4> rows;
         for (std::size_t i = 0; i < 4; ++i) rows[i] = detail::load_row(from(i), from(i + batch_size - 4));
         rows = detail::transpose(rows);
-        std::memcpy(numbers + first * sizeof(Batch), rows.data(), sizeof(rows));
+        std::memcpy(bytes + first * sizeof(Batch), rows.data(), sizeof(rows));
     });
     return packed;
 }
 
-template <template <class> class S>
+template <template <class> class S, std::size_t numbers = all_numbers<S>>
 std::array<S<float>, batch_size> unpack(const S<Batch>& packed) {
     static_assert(sizeof(S<Batch>) == batch_size * sizeof(S<float>));
     std::array<S<float>, batch_size> lanes;
-    const auto* numbers = reinterpret_cast<const std::byte*>(&packed);
-    detail::for_each_four<S<float>>([&](std::size_t first) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(&packed);
+    detail::for_each_four<S<float>, numbers>([&](std::size_t first) {
         const auto to = [&](std::size_t lane) { return reinterpret_cast<float*>(&lanes[lane]) + first; };
         std::array<Batch, 4> rows;
-        std::memcpy(rows.data(), numbers + first * sizeof(Batch), sizeof(rows));
+        std::memcpy(rows.data(), bytes + first * sizeof(Batch), sizeof(rows));
         rows = detail::transpose(rows);
         for (std::size_t i = 0; i < 4; ++i) detail::store_row(rows[i], to(i), to(i + batch_size - 4));
     });

@@ -59,9 +59,9 @@ def test_mean_radiance_of_materials_is_cycles(rendered: Rendered) -> None:
 
 def test_every_light_type_and_material_is_compared(rendered: Rendered, host: Host) -> None:
     joint = set(rendered.lights["JOINT"])
-    wanted = "point spot soft_point soft_spot sun square rectangle disk ellipse nodes world world_nodes"
+    wanted = "point spot soft_point soft_spot sun square rectangle disk ellipse nodes world world_nodes lobes"
     assert set(wanted.split()) <= joint
     assert ("raw" in joint) == (host.version >= (4, 4))
     for light_sampling in LIGHT_SAMPLING:
-        assert {"disk", "bounces"} <= set(rendered.lights[light_sampling])
+        assert {"disk", "bounces", "lobes"} <= set(rendered.lights[light_sampling])
     assert len(rendered.materials) == (9 if host.version >= (4, 0) else 1)

@@ -48,7 +48,7 @@ def test_a_detailed_mesh_loses_nothing(cases: Any) -> None:
     mesh = cases["scenes"]["mesh"]["EDIT"]["objects"]["mesh"]
     assert mesh["materials"] == ["mesh a", "mesh b"]
     assert sorted(mesh["triangle_slots"]) == [0, 0, 1, 1]
-    assert mesh["corner_uvs"][7] == [7 / 8, 0.5]
+    assert mesh["uvs"]["uv:"][7] == [7 / 8, 0.5]
     assert mesh["corner_normals"][0] == pytest.approx((0, 0.6, 0.8), abs=1e-3)
 
 

@@ -27,6 +27,7 @@ NODE = {
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
     "ShaderNodeOutputWorld": Table(used="is_active_output target"),
     "ShaderNodeOutputLight": Table(used="is_active_output target"),
+    "ShaderNodeUVMap": Table(used="uv_map from_instancer"),
     "ShaderNodeMath": Table(used="operation use_clamp"),
     "ShaderNodeVectorMath": Table(used="operation"),
     "ShaderNodeMix": Table(used="data_type factor_mode blend_type clamp_factor clamp_result"),
@@ -35,18 +36,49 @@ NODE = {
     "ShaderNodeSeparateColor": Table(used="mode"),
     "ShaderNodeClamp": Table(used="clamp_type"),
     "ShaderNodeMapRange": Table(used="clamp interpolation_type data_type"),
+    "ShaderNodeVectorRotate": Table(used="rotation_type invert"),
+    "ShaderNodeMapping": Table(used="vector_type"),
     "ShaderNodeRGBCurve": Table(used="mapping"),
+    "ShaderNodeVectorCurve": Table(used="mapping"),
     "ShaderNodeFloatCurve": Table(used="mapping"),
     "ShaderNodeValToRGB": Table(used="color_ramp"),
+    "ShaderNodeTexNoise": Table(
+        used="texture_mapping noise_dimensions noise_type normalize", no_meaning="color_mapping"
+    ),
+    "ShaderNodeTexMusgrave": Table(
+        used="texture_mapping musgrave_dimensions musgrave_type", no_meaning="color_mapping"
+    ),
+    "ShaderNodeTexVoronoi": Table(
+        used="texture_mapping voronoi_dimensions distance feature normalize", no_meaning="color_mapping"
+    ),
+    "ShaderNodeTexWave": Table(
+        used="texture_mapping wave_type bands_direction rings_direction wave_profile", no_meaning="color_mapping"
+    ),
+    "ShaderNodeTexMagic": Table(used="texture_mapping turbulence_depth", no_meaning="color_mapping"),
+    "ShaderNodeTexBrick": Table(
+        used="texture_mapping offset offset_frequency squash squash_frequency", no_meaning="color_mapping"
+    ),
+    "ShaderNodeTexChecker": Table(used="texture_mapping", no_meaning="color_mapping"),
+    "ShaderNodeTexGradient": Table(used="texture_mapping gradient_type", no_meaning="color_mapping"),
+    "ShaderNodeTexWhiteNoise": Table(used="noise_dimensions"),
+    "ShaderNodeTexCoord": Table(used="object from_instancer"),
+    "ShaderNodeTangent": Table(used="direction_type axis uv_map"),
+    "ShaderNodeWireframe": Table(used="use_pixel_size"),
+    "ShaderNodeAttribute": Table(used="attribute_type attribute_name"),
+    "ShaderNodeVertexColor": Table(used="layer_name"),
+    "ShaderNodeVectorTransform": Table(used="vector_type convert_from convert_to"),
+    "ShaderNodeNormalMap": Table(used="space uv_map"),
+    "ShaderNodeBump": Table(used="invert"),
+    "ShaderNodeDisplacement": Table(used="space"),
     # These are reported whenever they are met.
+    "ShaderNodeBevel": Table(no_meaning="samples"),
+    "ShaderNodeVectorDisplacement": Table(no_meaning="space"),
     "ShaderNodeTexImage": Table(
-        used="image",
-        no_meaning="""
-        texture_mapping color_mapping projection interpolation projection_blend extension image_user
-        """,
+        used="image image_user texture_mapping projection projection_blend interpolation extension",
+        no_meaning="color_mapping",
     ),
     "ShaderNodeTexEnvironment": Table(
-        used="image", no_meaning="texture_mapping color_mapping projection interpolation image_user"
+        used="image image_user texture_mapping projection interpolation", no_meaning="color_mapping"
     ),
 }
 
@@ -82,8 +114,7 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength",
-        linked="Normal",
+        "Emission Color, Emission Strength, Normal",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
@@ -103,32 +134,33 @@ INPUTS = {
         "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Transmission Roughness, Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
-    "ShaderNodeBsdfDiffuse": Inputs("Color", "Normal", (("Roughness", 0.0),), "Weight"),
-    "ShaderNodeBsdfGlossy": Inputs("Color, Roughness", "Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfDiffuse": Inputs("Color, Normal", left_out=(("Roughness", 0.0),), no_meaning="Weight"),
+    "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfAnisotropic": Inputs(
-        "Color, Roughness", "Normal", (("Anisotropy", 0.0),), "Rotation, Tangent, Weight"
+        "Color, Roughness, Normal", left_out=(("Anisotropy", 0.0),), no_meaning="Rotation, Tangent, Weight"
     ),
     "ShaderNodeBsdfMetallic": Inputs(
-        "Base Color, Edge Tint, Roughness",
-        "Normal",
-        (("Anisotropy", 0.0), *_THIN_FILM),
-        "IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
+        "Base Color, Edge Tint, Roughness, Normal",
+        left_out=(("Anisotropy", 0.0), *_THIN_FILM),
+        no_meaning="IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
     ),
     "ShaderNodeBsdfGlass": Inputs(  # which is reported whenever it is met
-        "Color, Roughness, IOR",
-        no_meaning="Normal, Weight, Thin Film Thickness@5.0, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3,"
-        "Tangent@5.3",
+        "Color, Roughness, IOR, Normal",
+        no_meaning="Weight, Thin Film Thickness@5.0, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
     ),
     "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeMixShader": Inputs("Fac, Shader, Shader_001"),
     "ShaderNodeAddShader": Inputs("Shader, Shader_001"),
-    "ShaderNodeOutputMaterial": Inputs("Surface", "Volume, Displacement", no_meaning="Thickness"),
+    "ShaderNodeOutputMaterial": Inputs("Surface, Displacement", "Volume", no_meaning="Thickness"),
     "ShaderNodeOutputWorld": Inputs("Surface", "Volume"),
     "ShaderNodeOutputLight": Inputs("Surface"),
     "ShaderNodeRGB": Inputs(),
     "ShaderNodeValue": Inputs(),
+    "ShaderNodeNewGeometry": Inputs(),
+    "ShaderNodeUVMap": Inputs(),
     "ShaderNodeMath": Inputs("Value, Value_001, Value_002"),
     "ShaderNodeVectorMath": Inputs("Vector, Vector_001, Vector_002, Scale"),
     "ShaderNodeMix": Inputs(
@@ -145,23 +177,54 @@ INPUTS = {
     "ShaderNodeSeparateRGB": Inputs("Image"),
     "ShaderNodeSeparateHSV": Inputs("Color"),
     "ShaderNodeSeparateXYZ": Inputs("Vector"),
+    "ShaderNodeWavelength": Inputs("Wavelength"),
     "ShaderNodeLightFalloff": Inputs("Strength, Smooth"),
     "ShaderNodeClamp": Inputs("Value, Min, Max"),
     "ShaderNodeMapRange": Inputs(
         "Value, From Min, From Max, To Min, To Max, Steps, Vector, From_Min_FLOAT3, From_Max_FLOAT3, To_Min_FLOAT3,"
         "To_Max_FLOAT3, Steps_FLOAT3"
     ),
+    "ShaderNodeVectorRotate": Inputs("Vector, Center, Axis, Angle, Rotation"),
+    "ShaderNodeMapping": Inputs("Vector, Location, Rotation, Scale"),
+    "ShaderNodeNormal": Inputs("Normal"),
     "ShaderNodeGamma": Inputs("Color, Gamma"),
     "ShaderNodeInvert": Inputs("Fac, Color"),
     "ShaderNodeBrightContrast": Inputs("Color, Bright, Contrast"),
     "ShaderNodeHueSaturation": Inputs("Hue, Saturation, Value, Fac, Color"),
     "ShaderNodeRGBCurve": Inputs("Fac, Color"),
+    "ShaderNodeVectorCurve": Inputs("Fac, Vector"),
     "ShaderNodeFloatCurve": Inputs("Factor, Value"),
     "ShaderNodeValToRGB": Inputs("Fac"),
     "ShaderNodeRGBToBW": Inputs("Color"),
+    "ShaderNodeTexNoise": Inputs("Vector, W, Scale, Detail, Roughness, Lacunarity, Offset, Gain, Distortion"),
+    "ShaderNodeTexMusgrave": Inputs("Vector, W, Scale, Detail, Dimension, Lacunarity, Offset, Gain"),
+    "ShaderNodeTexVoronoi": Inputs("Vector, W, Scale, Detail, Roughness, Lacunarity, Smoothness, Exponent, Randomness"),
+    "ShaderNodeTexWave": Inputs("Vector, Scale, Distortion, Detail, Detail Scale, Detail Roughness, Phase Offset"),
+    "ShaderNodeTexMagic": Inputs("Vector, Scale, Distortion"),
+    "ShaderNodeTexBrick": Inputs(
+        "Vector, Color1, Color2, Mortar, Scale, Mortar Size, Mortar Smooth, Bias, Brick Width, Row Height"
+    ),
+    "ShaderNodeTexChecker": Inputs("Vector, Color1, Color2, Scale"),
+    "ShaderNodeTexGradient": Inputs("Vector"),
+    "ShaderNodeTexWhiteNoise": Inputs("Vector, W"),
+    "ShaderNodeTexCoord": Inputs(),
+    "ShaderNodeTangent": Inputs(),
+    "ShaderNodeWireframe": Inputs("Size"),
+    "ShaderNodeAttribute": Inputs(),
+    "ShaderNodeVertexColor": Inputs(),
+    "ShaderNodeObjectInfo": Inputs(),
+    "ShaderNodeParticleInfo": Inputs(),
+    "ShaderNodeLightPath": Inputs(),
+    "ShaderNodeCameraData": Inputs(),
+    "ShaderNodeLayerWeight": Inputs("Blend, Normal"),
+    "ShaderNodeFresnel": Inputs("IOR, Normal"),
+    "ShaderNodeVectorTransform": Inputs("Vector"),
+    "ShaderNodeNormalMap": Inputs("Color, Strength"),
+    "ShaderNodeBump": Inputs("Height, Strength, Distance, Filter Width, Normal"),
+    "ShaderNodeDisplacement": Inputs("Height, Midlevel, Scale, Normal"),
     # These are reported whenever they are met.
-    "ShaderNodeFresnel": Inputs("IOR", no_meaning="Normal"),
-    "ShaderNodeLayerWeight": Inputs("Blend", no_meaning="Normal"),
-    "ShaderNodeTexImage": Inputs(no_meaning="Vector"),
-    "ShaderNodeTexEnvironment": Inputs(no_meaning="Vector"),
+    "ShaderNodeBevel": Inputs("Normal", no_meaning="Radius"),
+    "ShaderNodeVectorDisplacement": Inputs(no_meaning="Vector, Midlevel, Scale"),
+    "ShaderNodeTexImage": Inputs("Vector"),
+    "ShaderNodeTexEnvironment": Inputs("Vector"),
 }

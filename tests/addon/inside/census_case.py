@@ -28,7 +28,7 @@ KINDS = (
 )
 OTHER_NODES = {
     *("OUTPUT_MATERIAL", "OUTPUT_WORLD", "OUTPUT_LIGHT"),
-    *("RGB", "VALUE", "FRESNEL", "LAYER_WEIGHT", "TEX_IMAGE", "TEX_ENVIRONMENT"),
+    *("RGB", "VALUE", "TEX_IMAGE", "TEX_ENVIRONMENT"),
 }
 CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX")  # of them one at least changes the picture
 
@@ -90,7 +90,7 @@ def _unnamed(tables: Any) -> list[str]:
 @functools.cache
 def _inputs() -> dict[str, list[str]]:
     """The inputs of each kind of node that the exporter knows, by their identifiers."""
-    exported = {"pivot.export.shader": "_SHADERS", "pivot.export.constants": "CONSTANTS"}
+    exported = {"pivot.export.shader": "_SHADERS", "pivot.export.nodes": "ROWS"}
     known = {kind for module, table in exported.items() for kind in getattr(sys.modules[module], table)} | OTHER_NODES
     tree = bpy.data.node_groups.new("census", "ShaderNodeTree")
     inputs = {}

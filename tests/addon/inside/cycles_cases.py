@@ -16,7 +16,7 @@ OLD = bpy.app.version < (4, 0)
 SIZE = 48
 CYCLES_SAMPLES = 256
 PIVOT_SAMPLES = {"JOINT": 256, "SPTD": 256, "MIS": 256, "LIGHT": 256, "BSDF": 1024}
-IN_EVERY_SAMPLING = ("point", "spot", "soft_point", "soft_spot", "sun", "disk", "bounces")
+IN_EVERY_SAMPLING = ("point", "spot", "soft_point", "soft_spot", "sun", "disk", "lobes", "bounces")
 SOFT: dict[str, Any] = {"shadow_soft_size": 1.0}
 SPHERE: dict[str, Any] = {"shadow_soft_size": 0.4} | ({} if OLD else {"use_soft_falloff": False})
 CONE = {"spot_size": math.radians(70), "spot_blend": 0.3}
@@ -59,8 +59,11 @@ if not OLD:
 def main(folder: Path) -> Any:
     """Returns the names of each light sampling's scenes, and those of the materials from left to right."""
     rendered: dict[str, list[str]] = {light_sampling: [] for light_sampling in PIVOT_SAMPLES}
-    for name, light in (LIGHTS | {"world": {}, "world_nodes": {}, "bounces": LIGHTS["square"]}).items():
+    scenes = LIGHTS | {"world": {}, "world_nodes": {}, "bounces": LIGHTS["square"], "lobes": LIGHTS["square"]}
+    for name, light in scenes.items():
         _scene(name, dict(light))
+        if name == "lobes":
+            _add_lobes()
         bounces = 3 if name == "bounces" else 0
         _cycles(folder / f"{name}_CYCLES.exr", bounces)
         for light_sampling, scenes in rendered.items():
@@ -103,6 +106,32 @@ def _scene(name: str, light: dict[str, Any]) -> None:
         tree = parts.world((0.5, 0.7, 0.9)).node_tree
         if name == "world_nodes":
             _feed(tree, tree.nodes["Background"])
+
+
+def _add_lobes() -> None:
+    """A ball of two highlights mixed, in the place of the plastic one, and a paper screen that lights shine through."""
+    material, tree = parts.material("lacquer")
+    clear, dull = (tree.nodes.new("ShaderNodeBsdfGlossy") for _ in range(2))
+    for node, color, roughness in ((clear, (0.9, 0.9, 0.9, 1), 0.35), (dull, (0.8, 0.2, 0.1, 1), 0.8)):
+        node.distribution = "GGX"
+        node.inputs["Color"].default_value, node.inputs["Roughness"].default_value = color, roughness
+    _mix(tree, clear, dull)
+    bpy.data.objects["plastic"].data.materials[0] = material
+    material, tree = parts.material("paper")
+    inside, outside = (tree.nodes.new(f"ShaderNodeBsdf{kind}") for kind in ("Translucent", "Diffuse"))
+    inside.inputs["Color"].default_value, outside.inputs["Color"].default_value = (0.2, 0.7, 0.3, 1), (0.5, 0.1, 0.1, 1)
+    _mix(tree, inside, outside)
+    screen = parts.quad("paper", (0.2, -2.2, 1), material)
+    screen.rotation_euler = (math.radians(80), 0, 0.4)
+    parts.light("behind", "POINT", (0.2, -0.9, 2.8), energy=60, **SPHERE)
+
+
+def _mix(tree: Any, a: Any, b: Any) -> None:
+    """Two shaders by halves, as the material's surface."""
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    for index, node in enumerate((a, b), start=1):
+        tree.links.new(node.outputs[0], mix.inputs[index])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
 
 
 def _feed(tree: Any, shader: Any) -> None:

@@ -7,11 +7,11 @@ from typing import Any
 
 import bpy
 import parts
-from geometry_cases import cubes_on_points
+from geometry_cases import cubes_on_points, reading_uvs
 from recording import record
 
 NORMALS = ("corner_normals", "vertex_normals")
-ARRAYS = ("positions", "corner_vertices", "triangle_corners", *NORMALS, "corner_uvs", "triangle_slots")
+ARRAYS = ("positions", "corner_vertices", "triangle_corners", *NORMALS, "triangle_slots")
 
 
 def main(folder: Path) -> Any:
@@ -30,7 +30,8 @@ def _shown(make: Any, mode: str) -> Any:
         mesh = recording.meshes[group.mesh]
         arrays = {name: None if getattr(mesh, name) is None else getattr(mesh, name).tolist() for name in ARRAYS}
         places = group.object_to_world[:, :3, 3].tolist()
-        objects[group.name] = {"places": places, "materials": group.materials} | arrays
+        uvs = {name: values.tolist() for name, values in mesh.corner_attributes.items()}
+        objects[group.name] = {"places": places, "materials": group.materials, "uvs": uvs} | arrays
     return {"objects": objects, "reports": recording.reports}
 
 
@@ -53,7 +54,7 @@ def _detailed(name: str, location: Any = (0, 0, 0)) -> Any:
     for corner, data in enumerate(layer.data):
         data.uv = (corner / 8, 0.5)
     for suffix in "ab":
-        mesh.materials.append(parts.shaded(f"{name} {suffix}", "ShaderNodeBsdfDiffuse")[0])
+        mesh.materials.append(reading_uvs(f"{name} {suffix}"))
     mesh.polygons[1].material_index = 1
     if bpy.app.version < (4, 1):
         mesh.use_auto_smooth = True

@@ -44,7 +44,7 @@ def _arrays() -> Any:
             data.uv = (corner / 8, 1.0 if name == "second" else 0.0)
     mesh.uv_layers["second"].active_render = True
     mesh.polygons[1].material_index = 1
-    mesh.materials.append(parts.shaded("a", "ShaderNodeBsdfDiffuse")[0])
+    mesh.materials.append(reading_uvs("a"))
     mesh.materials.append(parts.shaded("b", "ShaderNodeBsdfDiffuse")[0])
     odd = parts.link("odd", mesh)
     modifier = odd.modifiers.new("double", "ARRAY")
@@ -56,10 +56,18 @@ def _arrays() -> Any:
         "positions": exported.positions.tolist(),
         "corner_vertices": exported.corner_vertices.tolist(),
         "triangle_corners": exported.triangle_corners.tolist(),
-        "corner_uvs": exported.corner_uvs.tolist(),
+        "corner_uvs": exported.corner_attributes["uv:"].tolist(),
         "triangle_slots": exported.triangle_slots.tolist(),
         "materials": recording.instances[0].materials,
     }
+
+
+def reading_uvs(name: str) -> Any:
+    """A material that reads the UV map that is active for rendering."""
+    material, diffuse = parts.shaded(name, "ShaderNodeBsdfDiffuse")
+    tree = diffuse.id_data
+    tree.links.new(tree.nodes.new("ShaderNodeUVMap").outputs[0], diffuse.inputs["Color"])
+    return material
 
 
 def _normals(kind: str) -> Any:

@@ -157,4 +157,4 @@ def _environment() -> Any:
     tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     recording = record()
     bpy.context.view_layer.use_sky = False
-    return {"image": recording.world, "image_reports": recording.reports, "no_sky": record().world}
+    return {"image": sorted(recording.world.varying), "image_reports": recording.reports, "no_sky": record().world}

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from recording import record
+from recording import Shader, record
 
 NEW = bpy.app.version >= (4, 0)
 SPECULAR = "Specular IOR Level" if NEW else "Specular"
@@ -25,10 +25,17 @@ def main(folder: Path) -> Any:
     second.location.x = 9
     recording = record()
     return {
-        "materials": {name: asdict(material) for name, material in recording.materials.items()},
+        "materials": {name: _plain(material) for name, material in recording.materials.items()},
         "reports": recording.reports,
         "override": _override(),
     }
+
+
+def _plain(material: Any) -> Any:
+    """A Material as it is; of a Shader its constants, and what varies."""
+    if isinstance(material, Shader):
+        return asdict(material.constants) | {"varying": sorted(material.varying)}
+    return asdict(material) | {"varying": []}
 
 
 def use(material: Any) -> None:
@@ -200,6 +207,29 @@ def _nearest() -> None:
         tree.links.new(glossy.outputs[0], mix.inputs[index])
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
     use(lacquer)
+
+    paper, tree = parts.material("paper")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    for index, (kind, color) in enumerate((("Diffuse", RED), ("Translucent", GREEN)), start=1):
+        node = tree.nodes.new(f"ShaderNodeBsdf{kind}")
+        node.inputs["Color"].default_value = color
+        tree.links.new(node.outputs[0], mix.inputs[index])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(paper)
+
+    many, tree = parts.material("many_highlights")
+    total = None
+    for roughness in (0.1, 0.2, 0.3, 0.4, 0.5):
+        glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
+        glossy.distribution = "GGX"
+        glossy.inputs["Roughness"].default_value = roughness
+        if total:
+            add = tree.nodes.new("ShaderNodeAddShader")
+            tree.links.new(total.outputs[0], add.inputs[0])
+            tree.links.new(glossy.outputs[0], add.inputs[1])
+        total = add if total else glossy
+    tree.links.new(total.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(many)
 
 
 def _special() -> None:

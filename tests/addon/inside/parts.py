@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -83,3 +84,17 @@ def clear() -> None:
     """An empty scene of 16 x 16 pixels, the addon enabled."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     size(16, 16)
+
+
+def render_steady(path: Path, engine: str, samples: int = 1) -> None:
+    """Samples at each pixel's centre, as an EXR of 32 bits."""
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    if engine == "CYCLES":
+        scene.cycles.device, scene.cycles.samples, scene.cycles.filter_width = "CPU", samples, 0.01
+        scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
+    else:
+        scene.pivot.samples, scene.render.filter_size = samples, 0.01
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)

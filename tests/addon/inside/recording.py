@@ -1,6 +1,6 @@
 """pivot_core's interface without its work: what the addon hands over in a render, as plain values.
 
-Calls have the core's own parameters, so a misnamed one fails as it would there.
+Calls have the core's own parameters, so a misnamed one fails as it would there. Programs and their ops are the core's.
 """
 
 from __future__ import annotations
@@ -28,7 +28,16 @@ class Material:
     dielectric_ior: float = 1.5
     dielectric_tint: Any = (1, 1, 1)
     multiscatter: bool = False
+    weight: float = 1.0
     emission: Any = (0, 0, 0)
+    lobes: Any = ()
+
+
+@dataclass
+class Shader:
+    constants: Material
+    program: Any
+    varying: dict[str, list[int]]
 
 
 @dataclass
@@ -91,7 +100,7 @@ class Recording:
 
     meshes: list[SimpleNamespace] = field(default_factory=list)
     instances: list[SimpleNamespace] = field(default_factory=list)
-    materials: dict[str, Material] = field(default_factory=dict)
+    materials: dict[str, Material | Shader] = field(default_factory=dict)
     lights: dict[str, Any] = field(default_factory=dict)
     world: Any = None
     cameras: list[SimpleNamespace] = field(default_factory=list)
@@ -110,6 +119,7 @@ class Recording:
 class Scene:
     def __init__(self) -> None:
         self.recording = recording = _recordings[-1]
+        self.attributes: dict[str, int] = {}
         for collection in (recording.meshes, recording.instances, recording.materials, recording.lights):
             collection.clear()  # each view layer and frame has a scene of its own
 
@@ -121,8 +131,9 @@ class Scene:
         triangle_corners: Any,
         corner_normals: Any = None,
         vertex_normals: Any = None,
-        corner_uvs: Any = None,
         triangle_slots: Any = None,
+        vertex_attributes: Any = None,
+        corner_attributes: Any = None,
     ) -> int:
         mesh = dict(locals())
         del mesh["self"]
@@ -130,7 +141,19 @@ class Scene:
         return len(self.recording.meshes) - 1
 
     def add_instances(
-        self, name: str, mesh: int, object_to_world: Any, materials: Any, camera_visible: bool = True
+        self,
+        name: str,
+        mesh: int,
+        object_to_world: Any,
+        materials: Any,
+        camera_visible: bool = True,
+        color: Any = (1, 1, 1, 1),
+        pass_index: float = 0,
+        random: Any = None,
+        particle_index: Any = None,
+        generated: Any = None,
+        uv: Any = None,
+        attributes: Any = None,
     ) -> int:
         materials = [list(self.recording.materials)[material] for material in materials]
         self.recording.instances.append(
@@ -144,7 +167,10 @@ class Scene:
         )
         return len(self.recording.instances) - 1
 
-    def add_material(self, name: str, material: Material) -> int:
+    def attribute_id(self, name: str) -> int:
+        return self.attributes.setdefault(name, len(self.attributes))
+
+    def add_material(self, name: str, material: Material | Shader) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
         return len(self.recording.materials) - 1
@@ -155,6 +181,9 @@ class Scene:
 
     def set_world(self, radiance: Any) -> None:
         self.recording.world = list(radiance)
+
+    def set_world_shader(self, shader: Shader) -> None:
+        self.recording.world = shader
 
     def set_camera(
         self,
@@ -201,9 +230,11 @@ _recordings: list[Recording] = []
 
 @contextmanager
 def _in_place_of_the_core() -> Iterator[None]:
+    real = sys.modules["pivot.core"].load()
     core: Any = ModuleType("pivot_core")
-    core.version = sys.modules["pivot.core"].VERSION
-    for part in (Material, SphereLight, SpotLight, SunLight, AreaLight, RenderSettings, Scene, Session):
+    for name in ("version", "ops", "run_op", "Program", "Image"):
+        setattr(core, name, getattr(real, name))
+    for part in (Material, Shader, SphereLight, SpotLight, SunLight, AreaLight, RenderSettings, Scene, Session):
         setattr(core, part.__name__, part)
     engine: Any = sys.modules["pivot.engine"]
     reporter = engine.Reporter

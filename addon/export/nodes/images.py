@@ -1,0 +1,119 @@
+"""Nodes that look up images. [C] is Cycles 4.5, scene/shader_nodes.cpp and kernel/svm/image.h."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import mathutils
+import numpy as np
+
+from ..program import Value
+from .row import Node, Row
+
+_PINK = (1.0, 0.0, 1.0, 1.0)  # what is missing [C]
+_INTERPOLATIONS = {"Closest": 0, "Linear": 1, "Cubic": 2, "Smart": 2}  # the core's
+_EXTENSIONS = {"REPEAT": 0, "EXTEND": 1, "CLIP": 2, "MIRROR": 3}
+
+
+def _image_texture(node: Node) -> Value:
+    projection = node.node.projection
+    if projection == "BOX":
+        return _looked_up(node, "image_box", _mapped_uv, _EXTENSIONS[node.node.extension])
+    project = {"FLAT": lambda at: at[:2], "SPHERE": _by("project_sphere"), "TUBE": _by("project_tube")}[projection]
+    closed = projection != "FLAT"
+    return _looked_up(node, "image", lambda at: project(_mapped_uv(at)), _EXTENSIONS[node.node.extension], closed)
+
+
+def _environment_texture(node: Node) -> Value:
+    equirectangular = node.node.projection == "EQUIRECTANGULAR"
+    project = _by("project_equirectangular" if equirectangular else "project_mirror_ball")
+    return _looked_up(node, "image", lambda at: project(_mapped_direction(at)), _EXTENSIONS["REPEAT"], equirectangular)
+
+
+def _by(op: str) -> Callable[[Value], Value]:
+    return lambda at: at.program.op(op, at)
+
+
+def _looked_up(
+    node: Node, op: str, coordinate: Callable[[Node], Value], extension: int, closed_u: bool = False
+) -> Value:
+    """The output that is asked for. coordinate: of the node at a place, or beside it."""
+    blender_node = node.node
+    program = node.program
+    if blender_node.image is None:
+        node.warn("it has no image and is shown in pink. Fix: choose one")
+        picture = None
+    else:
+        picture = program.images.picture(blender_node.image, blender_node.image_user, node.warn)
+    if picture is None:
+        return _output(node, program.colour(_PINK))
+    if program.is_nowhere:
+        return _output(node, program.colour(picture.mean(blender_node.bl_idname == "ShaderNodeTexEnvironment")))
+    wants_alpha = any(output.is_linked for output in blender_node.outputs if output.identifier == "Alpha")
+    unassociate = picture.is_associated and wants_alpha
+    settings = [_INTERPOLATIONS[blender_node.interpolation], extension, unassociate, closed_u]
+    places = [coordinate(node), *(coordinate(node.beside(other)) for other in {0, 1, 2} - {node.neighbour})]
+    if op == "image_box":
+        settings.append(blender_node.projection_blend)
+    elif picture.is_tiled:
+        rgba = program.colour(_PINK)
+        for tile, image in picture.tiles.items():
+            rgba = node.op("image_tile", *places, rgba, settings=[*settings, *tile], image=image)
+        return _output(node, rgba)
+    image = picture.tiles.get((0, 0))
+    return _output(node, node.op(op, *places, settings=settings, image=image) if image else program.colour(_PINK))
+
+
+def _output(node: Node, rgba: Value) -> Value:
+    return rgba[3] if node.output == "Alpha" else rgba[:3]
+
+
+def _mapped_uv(node: Node) -> Value:
+    uv = node.vector("Vector") if node.is_linked("Vector") else _active_uv(node)
+    return _mapped(uv, node.node.texture_mapping)
+
+
+def _active_uv(node: Node) -> Value:
+    return node.op("attribute", settings=[node.program.attribute_id("uv:")])[:3]
+
+
+def _mapped_direction(node: Node) -> Value:
+    direction = node.vector("Vector") if node.is_linked("Vector") else node.op("position")
+    return _mapped(direction, node.node.texture_mapping)
+
+
+def _mapped(at: Value, mapping: Any) -> Value:
+    """By the mapping that a texture node has of its own, which no panel shows."""
+    matrix = _matrix(mapping)
+    if not np.array_equal(matrix, np.eye(4)):
+        rows = [sum((at[i] * float(row[i]) for i in range(3)), at.program.number(float(row[3]))) for row in matrix[:3]]
+        at = Value(tuple(row.parts[0] for row in rows), at.program)
+    return at.program.op("vector_normalize", at) if mapping.vector_type == "NORMAL" else at
+
+
+def _matrix(mapping: Any) -> np.ndarray:
+    """(4, 4) [C]"""
+    kind = mapping.vector_type
+    scale = np.array(mapping.scale, float)
+    if kind in {"TEXTURE", "NORMAL"}:
+        scale = np.where(np.abs(scale) < 1e-5, np.copysign(1e-5, scale), scale)
+    turn = np.array(mathutils.Euler(mapping.rotation).to_matrix()) @ np.diag(scale)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.linalg.inv(turn).T if kind == "NORMAL" else turn
+    if kind in {"TEXTURE", "POINT"}:
+        matrix[:3, 3] = mapping.translation
+    if kind == "TEXTURE":
+        matrix = np.linalg.inv(matrix)
+    choice = np.zeros((4, 4))
+    choice[3, 3] = 1
+    for row, axis in enumerate((mapping.mapping_x, mapping.mapping_y, mapping.mapping_z)):
+        if axis != "NONE":
+            choice[row, "XYZ".index(axis)] = 1
+    return matrix @ choice
+
+
+ROWS: dict[str, Row] = {
+    "TEX_IMAGE": _image_texture,
+    "TEX_ENVIRONMENT": _environment_texture,
+}

@@ -1,0 +1,55 @@
+"""Nodes that tell what a mesh and an object keep for shaders."""
+
+from __future__ import annotations
+
+from ..program import Value
+from .geometry import mesh_attribute
+from .row import Node, Row
+
+_OBJECT_INFO = {
+    "Location": "object_location",
+    "Color": "object_color",
+    "Alpha": "object_alpha",
+    "Object Index": "object_index",
+    "Random": "object_random",
+}
+_KINDS = {"OBJECT": "object", "INSTANCER": "instancer", "VIEW_LAYER": "layer"}
+
+
+def _attribute(node: Node) -> Value:
+    kind, name = node.node.attribute_type, node.node.attribute_name
+    if kind == "GEOMETRY":
+        value = mesh_attribute(node, f"attribute:{name}")
+    else:
+        id_ = node.program.attribute_id(f"{_KINDS[kind]}:{name}")
+        value = node.op("object_attribute", settings=[id_, 1.0 if kind == "OBJECT" else 0.0])
+    return {"Alpha": value[3], "Fac": value[4]}.get(node.output, value[:3])
+
+
+def _color_attribute(node: Node) -> Value:
+    name = node.node.layer_name
+    value = mesh_attribute(node, f"attribute:{name}" if name else "color:", 0.0)
+    return value[3] if node.output == "Alpha" else value[:3]
+
+
+def _object_info(node: Node) -> Value:
+    if node.output == "Material Index":
+        return node.program.number(node.material_index)
+    return node.op(_OBJECT_INFO[node.output])
+
+
+def _particle_info(node: Node) -> Value:
+    node.program.attributes.add("particle:")
+    if node.output in {"Index", "Random"}:
+        return node.op(f"particle_{node.output.lower()}")
+    node.warn(f"{node.output} is not supported, it is 0")
+    zero = node.program.number(0.0)
+    return zero if node.output in {"Age", "Lifetime", "Size"} else zero.widened()
+
+
+ROWS: dict[str, Row] = {
+    "ATTRIBUTE": _attribute,
+    "VERTEX_COLOR": _color_attribute,
+    "OBJECT_INFO": _object_info,
+    "PARTICLE_INFO": _particle_info,
+}

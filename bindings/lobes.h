@@ -1,0 +1,19 @@
+// Lobes of a material as Python gives them: (kind, {parameter: number or colour}).
+#pragma once
+
+#include <pybind11/stl.h>
+
+#include "bindings/arrays.h"
+#include "core/bsdf/surface.h"
+
+namespace pivot::bindings {
+
+using LobeArguments = std::vector<std::pair<std::string, std::map<std::string, std::variant<float, Triple>>>>;
+
+/// Throws std::invalid_argument naming the kind and the parameter that cannot be.
+std::array<LobeOf<float>, max_lobes> to_lobes(const LobeArguments& arguments);
+
+/// LOBES, MAX_LOBES and how a material's lobes are evaluated and sampled. Material must be registered.
+void register_lobes(py::module_& module);
+
+}  // namespace pivot::bindings

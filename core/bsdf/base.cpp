@@ -1,0 +1,103 @@
+#include "core/bsdf/base.h"
+
+#include "core/tables/ggx_albedo.h"
+#include "core/tables/ggx_dielectric.h"
+
+namespace pivot {
+namespace {
+
+/// Hemispherical mean of Schlick's weight, and of the dielectric curve (fit of [KullaConty17], ior in 1..3).
+constexpr float schlick_mean_weight = 1.0f / 21.0f;
+
+template <class T>
+T dielectric_mean(T ior) {
+    return (ior - T(1)) / (T(4.08567f) + T(1.00071f) * ior);
+}
+
+/// What single scattering must be multiplied by for the lobe to keep its energy, given its mean Fresnel [KullaConty17].
+template <class T>
+Vec3<T> multiscatter_scale(const Vec3<T>& mean_fresnel, T albedo, T mean_albedo) {
+    const Vec3<T> bounces = mean_fresnel * mean_albedo / (Vec3<T>(T(1)) - mean_fresnel * (T(1) - mean_albedo));
+    return Vec3<T>(T(1)) + bounces * ((T(1) - albedo) / albedo);
+}
+
+/// What the GGX lobe reflects towards wo over what it would without Fresnel. dielectric_share: where the dielectric
+/// stands between normal (0) and grazing incidence (1).
+template <class T>
+Vec3<T> mean_fresnel(const BaseOf<T>& base, T dielectric_share) {
+    const LobeFresnelOf<T>& f = base.fresnel;
+    return f.schlick_f0 + (f.schlick_f90 - f.schlick_f0) * schlick_weight(base.wo_local.z) + f.dielectric_f0 +
+           (f.dielectric_f90 - f.dielectric_f0) * dielectric_share;
+}
+
+}  // namespace
+
+template <class T>
+BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local) {
+    const T zero(0), one(1);
+    const Vec3<T> black(zero), white(one);
+    BaseOf<T> base{.wo_local = wo_local,
+                   .diffuse = material.diffuse,
+                   .alpha = min(max(material.alpha, T(min_alpha)), one),
+                   .fresnel = {black, black, black, black, material.dielectric_ior},
+                   .glossy_probability = zero};
+    if (!any(material.has_glossy())) return base;
+
+    LobeFresnelOf<T>& fresnel = base.fresnel;
+    const T albedo = ggx_albedo(base.alpha, wo_local.z);
+    const Mask<T> multiscatter = material.multiscatter > zero;
+    const T mean_albedo = any(multiscatter) ? ggx_average_albedo(base.alpha) : one;
+    const auto energy_scale = [&](const Vec3<T>& mean) {
+        return any(multiscatter) ? select(multiscatter, multiscatter_scale(mean, albedo, mean_albedo), white) : white;
+    };
+    fresnel.schlick_f0 = material.conductor_f0;
+    fresnel.schlick_f90 = material.conductor_f90;
+    if (any(multiscatter && material.has_conductor())) {
+        const Vec3<T> mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * T(schlick_mean_weight);
+        // The two Fresnel parts are weighted shares of one surface: each part's own mean is over its own weight.
+        const Vec3<T> scale = energy_scale(min(mean / max(material.conductor_weight, T(1e-6f)), white));
+        fresnel.schlick_f0 *= scale;
+        fresnel.schlick_f90 *= scale;
+    }
+    const Mask<T> has_dielectric = material.dielectric_weight > zero && material.dielectric_ior > one;
+    T share = zero;
+    if (any(has_dielectric)) {
+        const T weight = select(has_dielectric, material.dielectric_weight, zero);
+        const T f0 = f0_from_ior(fresnel.ior);
+        const Vec3<T> tinted_f0 = f0 * material.dielectric_tint;
+        share = ggx_dielectric_weight(base.alpha, wo_local.z, fresnel.ior);
+        const T mean_weight = (dielectric_mean(fresnel.ior) - f0) / (one - f0);
+        const Vec3<T> gain = energy_scale(tinted_f0 + (white - tinted_f0) * mean_weight);
+        // What the layer reflects. Cycles takes a lobe without multiple scattering for one that loses nothing.
+        const Vec3<T> layer = (tinted_f0 + (white - tinted_f0) * share) * gain * select(multiscatter, albedo, one);
+        // The diffuse lobe lies on the part that is not conductor, and the dielectric on some or all of that.
+        const T conductor = select(material.has_conductor(), material.conductor_weight, zero);
+        const T rest = max(material.weight - conductor, T(1e-6f));
+        const T coverage = min(weight / rest, one);
+        base.diffuse *= max(zero, one - coverage * max_component(layer));
+        fresnel.dielectric_f90 = gain * weight;
+        fresnel.dielectric_f0 = fresnel.dielectric_f90 * tinted_f0;
+    }
+    const T glossy = mean_component(mean_fresnel(base, share)) * albedo;
+    const T diffuse = mean_component(base.diffuse);
+    const T probability = glossy / max(glossy + diffuse, tiny<T>);
+    // A faint lobe keeps a share of the samples: its peak may be far above its mean.
+    base.glossy_probability =
+        select(diffuse > zero && glossy > zero, min(max(probability, T(0.1f)), T(0.9f)), probability);
+    return base;
+}
+
+template <class T>
+Vec3<T> glossy_albedo(const BaseOf<T>& base) {
+    const T cos_o = base.wo_local.z;
+    const Mask<T> has_dielectric = base.fresnel.has_dielectric();
+    const T share = any(has_dielectric) ? ggx_dielectric_weight(base.alpha, cos_o, base.fresnel.ior) : T(0);
+    return mean_fresnel(base, share) * ggx_albedo(base.alpha, cos_o);
+}
+
+template Base make_base(const BaseMaterialOf<float>&, const Vec3f&);
+template BaseOf<Batch> make_base(const BaseMaterialOf<Batch>&, const Vec3b&);
+template Rgb glossy_albedo(const Base&);
+template Vec3b glossy_albedo(const BaseOf<Batch>&);
+
+}  // namespace pivot

@@ -1,0 +1,73 @@
+// The lobes that a surface may have beside its base: a file each in core/bsdf/lobes/, and a row of the list below. A
+// kind is a struct of numbers as seen from one direction; all have the same functions (see Lobe). Shading frame, z the
+// normal and wo above it; wi may be on either side.
+#pragma once
+
+#include <tuple>
+#include <utility>
+
+#include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/translucent.h"
+
+namespace pivot {
+
+template <class T>
+using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>>;
+
+/// What a kind of lobe must have, T its number type.
+template <class L, class T>
+concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
+                        const Vec2<T>& u) {
+    /// As a material has it: a struct of numbers, named in order by L::parameters; and as it is seen from wo.
+    { L::seen(parameters, w) } -> std::same_as<L>;
+    { L::name } -> std::convertible_to<std::string_view>;
+    { L::parameters[0] } -> std::convertible_to<LobeParameter>;
+    /// Which sides of the surface light may come from: the viewer's, the other, or both.
+    { L::reflects || L::transmits } -> std::convertible_to<bool>;
+    /// (wo, wi): BSDF times |cos|, 1/sr.
+    { lobe.eval(w, w) } -> std::same_as<Vec3<T>>;
+    /// (wo, wi): density of sample().
+    { lobe.pdf_omega(w, w) } -> std::same_as<T>;
+    /// (wo, u_lobe, u): a direction; u_lobe chooses among parts, if there are any, and u places it.
+    { lobe.sample(w, u_lobe, u) } -> std::same_as<Vec3<T>>;
+    /// (wo): what it sends to wo where all light around is 1; about, for it chooses among lobes.
+    { lobe.albedo(w) } -> std::same_as<Vec3<T>>;
+    /// What the pass of diffuse colours shows of it.
+    { lobe.diffuse() } -> std::same_as<Vec3<T>>;
+    /// (wo): the base that reflects what this lobe sends to wo, for the analytic integrator; of one that transmits, in
+    /// a frame turned over.
+    { lobe.closed_form(w) } -> std::same_as<BaseOf<T>>;
+};
+
+namespace detail {
+
+template <class L>
+constexpr std::size_t number_count() {
+    std::size_t count = 0;
+    for (const LobeParameter& parameter : L::parameters) count += parameter.count;
+    return count;
+}
+
+}  // namespace detail
+
+/// Calls visit.operator()<L>(kind) for each kind L; kind: its place in the list, from 1.
+template <class T, class Visit>
+void for_each_lobe_kind(const Visit& visit) {
+    [&]<class... L>(std::type_identity<std::tuple<L...>>) {
+        static_assert((Lobe<L, T> && ...));
+        static_assert(((sizeof(typename L::Parameters) == detail::number_count<L>() * sizeof(T)) && ...));
+        float kind = 0.0f;
+        (visit.template operator()<L>(T(++kind)), ...);
+    }(std::type_identity<LobeKinds<T>>{});
+}
+
+/// Calls visit(lobe, mask) for each kind that the record has in some lane, those of the mask.
+template <class T, class Visit>
+void visit_lobe(const LobeOf<T>& record, const Visit& visit) {
+    for_each_lobe_kind<T>([&]<class L>(T kind) {
+        const Mask<T> is_kind = record.kind == kind;
+        if (any(is_kind)) visit(record.template read<L>(), is_kind);
+    });
+}
+
+}  // namespace pivot

@@ -1,0 +1,83 @@
+#include "core/shaders/program.h"
+
+#include <stdexcept>
+
+namespace pivot {
+namespace {
+
+constexpr std::size_t max_inputs = 40;
+
+const Place& nowhere() {
+    static const CameraFacts camera{};
+    static const PlaceLanes lanes = [] {
+        PlaceLanes nothing{};
+        nothing.camera = &camera;
+        return nothing;
+    }();
+    static const Place place{
+        .lanes = lanes, .position = {}, .normal = {}, .normal_geometric = {}, .barycentric = {}, .position_object = {}};
+    return place;
+}
+
+}  // namespace
+
+std::uint32_t Program::add(const std::string& name, std::vector<Input> inputs, OpSettings settings,
+                           std::uint32_t neighbour) {
+    const OpKind* kind = find_op(name);
+    if (!kind) throw std::invalid_argument("there is no op '" + name + "'");
+    const auto fail = [&](const std::string& what) { throw std::invalid_argument("op '" + name + "': " + what); };
+    if (inputs.size() != kind->input_count)
+        fail("it takes " + std::to_string(kind->input_count) + " numbers, not " + std::to_string(inputs.size()));
+    if (inputs.size() > max_inputs) fail("it has too many inputs");
+    if (neighbour >= 3 + 2 * bump_widths_.size()) fail("there is no neighbour " + std::to_string(neighbour));
+    if (kind->reads_image && !settings.image) fail("it needs an image");
+    for (const Input& input : inputs)
+        if (input.register_index != Input::constant && input.register_index >= register_count_)
+            fail("register " + std::to_string(input.register_index) + " holds nothing yet");
+    const std::uint32_t first = register_count_;
+    steps_.push_back({.kind = kind,
+                      .first_input = static_cast<std::uint32_t>(inputs_.size()),
+                      .first_output = first,
+                      .neighbour = neighbour,
+                      .settings = std::move(settings)});
+    inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
+    register_count_ += kind->output_count;
+    needs_neighbours_ = needs_neighbours_ || neighbour != 0;
+    return first;
+}
+
+std::uint32_t Program::bump_neighbour(float filter_width) {
+    const auto found = std::ranges::find(bump_widths_, filter_width);
+    const auto index = static_cast<std::uint32_t>(found - bump_widths_.begin());
+    if (index == bump_widths_.size()) bump_widths_.push_back(filter_width);
+    return 3 + 2 * index;
+}
+
+void Program::run(Places places, std::span<Batch> registers) const {
+    std::array<Batch, max_inputs> inputs;
+    for (const Step& step : steps_) {
+        for (std::uint32_t i = 0; i < step.kind->input_count; ++i) {
+            const Input& input = inputs_[step.first_input + i];
+            inputs[i] = input.register_index == Input::constant ? Batch(input.value) : registers[input.register_index];
+        }
+        // Where there are no neighbours each is the place itself.
+        const Place& place = places[step.neighbour < places.size() ? step.neighbour : 0];
+        step.kind->run(inputs.data(), step.settings, place, &registers[step.first_output]);
+    }
+}
+
+std::vector<float> Program::run_nowhere() const {
+    std::vector<Batch> registers(register_count_);
+    run({&nowhere(), 1}, registers);
+    std::vector<float> numbers;
+    for (const Batch& batch : registers) numbers.push_back(store(batch)[0]);
+    return numbers;
+}
+
+std::vector<Batch> evaluate(const OpKind& kind, std::span<const Batch> inputs, const OpSettings& settings) {
+    std::vector<Batch> outputs(kind.output_count);
+    kind.run(inputs.data(), settings, nowhere(), outputs.data());
+    return outputs;
+}
+
+}  // namespace pivot

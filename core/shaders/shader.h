@@ -1,0 +1,37 @@
+// What a material means: numbers, of which those that vary over a surface are a program's registers.
+#pragma once
+
+#include <optional>
+
+#include "core/bsdf/material.h"
+#include "core/shaders/program.h"
+
+namespace pivot {
+
+/// A number of MaterialOf, counted in floats from its start, and the register that it is, within bounds.
+struct Varying {
+    std::uint32_t number;
+    std::uint32_t register_index;
+    float low, high;
+};
+
+struct Shader {
+    Material constants;
+    Program program;
+    std::vector<Varying> varying;
+    std::optional<std::array<std::uint32_t, 3>> normal;  ///< registers of the shading normal, world space
+    bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
+
+    Shader(const Material& material) : constants(material) {}  // NOLINT: a material is a shader of constants
+    Shader(const Material& material, Program runs) : constants(material), program(std::move(runs)) {}
+
+    bool is_constant() const { return varying.empty() && !normal; }
+    bool has_varying_emission() const;
+    /// Whether light may leave it of its own.
+    bool is_emissive() const { return has_varying_emission() || constants.is_emissive(); }
+};
+
+/// The material at each lane's place, its numbers within what a surface can be made of.
+MaterialOf<Batch> material_at(const Shader& shader, std::span<const Batch> registers);
+
+}  // namespace pivot

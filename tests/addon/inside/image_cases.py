@@ -1,0 +1,366 @@
+"""Image textures, each rendered by Cycles and by Pivot: one sample at the middle of each pixel of an emissive square.
+
+Cases are functions that are given a folder for their files and return the color and alpha sockets to be shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import bpy
+import numpy as np
+import parts
+
+SIZE = 64
+JITTER = 0.01  # of the step to a pixel's neighbours
+CASES: dict[str, Callable[[Any, Path], Any]] = {}
+
+
+def main(folder: Path) -> Any:
+    """By case: the share of pixels that differ by more than Cycles' filter of 0.01 pixels can make, and how much they
+    vary.
+    """
+    pictures = {name: _compared(make, folder) for name, make in CASES.items()}
+    return {"pictures": pictures, "analytic": _analytic(folder), "kept": _kept(folder)}
+
+
+def _analytic(folder: Path) -> Any:
+    """A white square under a world of random texels."""
+    parts.clear()
+    parts.size(SIZE, SIZE)
+    parts.quad("white", material=parts.shaded("white", "ShaderNodeBsdfDiffuse", Color=(1, 1, 1, 1))[0])
+    parts.camera((0, 0, 1))
+    _world("EQUIRECTANGULAR")(None, folder)
+    bpy.context.scene.pivot.integrator = "ANALYTIC"
+    texels = _pixels(16, 8, high=3.0)[..., :3].astype(float)
+    latitude = (np.arange(8) + 0.5) / 8 - 0.5
+    mean = np.average(texels.mean(axis=1), axis=0, weights=np.cos(np.pi * latitude))
+    with _listening() as said:
+        lit = _rendered("PIVOT", folder)[SIZE // 2, SIZE // 2]
+    return {"lit": lit.tolist(), "mean": mean.tolist(), "said": said}
+
+
+def _kept(folder: Path) -> Any:
+    """What Blender keeps of an image in a file after a render that looked it up."""
+    parts.clear()
+    parts.size(SIZE, SIZE)
+    material, _ = parts.shaded("picture", "ShaderNodeEmission")
+    image = _saved(folder, _generated(9, 5), "PNG")
+    _texture(material.node_tree, image)
+    parts.quad("square", material=material)
+    parts.camera()
+    for other in [other for other in bpy.data.images if other != image]:
+        bpy.data.images.remove(other)
+    image.buffers_free()
+    _rendered("PIVOT", folder)
+    return {"has_data": image.has_data, "images": len([i for i in bpy.data.images if i.type == "IMAGE"])}
+
+
+def _compared(make: Callable[[Any, Path], Any], folder: Path) -> Any:
+    parts.clear()
+    parts.size(SIZE, SIZE)
+    material, _ = parts.shaded("picture", "ShaderNodeEmission")
+    if not make(material.node_tree, folder):
+        square = parts.quad("square", material=material)
+        square.scale, square.rotation_euler.x = (2, 1.5, 1), 0.1
+        _uv(square.data)
+        parts.camera((0.1, 0.2, 4.5))
+    else:  # a world
+        parts.camera((0, 0, 0), (1.2, 0.3, 0.4)).data.lens = 12
+    expected = _rendered("CYCLES", folder)
+    with _listening() as said:
+        actual = _rendered("PIVOT", folder)
+    error = np.abs(actual - expected) - JITTER * _steps(expected)
+    wrong = (error > 1e-3 * (1 + np.abs(expected))).any(axis=2)
+    return {"wrong": float(wrong.mean()), "varies": float(expected.std()), "said": said}
+
+
+@contextmanager
+def _listening() -> Iterator[list[str]]:
+    """What is said meanwhile, but for the filter."""
+    said: list[str] = []
+    with patch("pivot.report.Reporter.warn", lambda _, text: "Filter" in text or said.append(text)):
+        yield said
+
+
+def _steps(picture: Any) -> Any:
+    """By how much each pixel differs from those around it."""
+    padded = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    around = [padded[y : y + SIZE, x : x + SIZE] for y in range(3) for x in range(3)]
+    return np.max(around, axis=0) - np.min(around, axis=0)
+
+
+def _uv(mesh: Any) -> None:
+    layer = mesh.uv_layers.new(name="UV")
+    for loop, uv in enumerate(((-0.7, -0.4), (1.6, -0.4), (1.6, 1.7), (-0.7, 1.7))):
+        layer.data[loop].uv = uv
+
+
+def _rendered(engine: str, folder: Path) -> Any:
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    scene.render.film_transparent = False
+    if engine == "CYCLES":
+        scene.cycles.samples, scene.cycles.filter_width, scene.cycles.use_denoising = 1, 0.01, False
+        scene.cycles.use_adaptive_sampling = False
+    else:
+        scene.pivot.samples, scene.render.filter_size = 1, 0.01
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "32"
+    scene.render.filepath = str(folder / f"{engine}.exr")
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(scene.render.filepath)
+    values = np.empty(SIZE * SIZE * 4, np.float32)
+    picture.pixels.foreach_get(values)
+    bpy.data.images.remove(picture)
+    return values.reshape(SIZE, SIZE, 4)[..., :3]
+
+
+def case(function: Callable[[Any, Path], Any]) -> Callable[[Any, Path], Any]:
+    CASES[function.__name__.strip("_")] = function
+    return function
+
+
+def _pixels(width: int, height: int, alpha: bool = False, high: float = 1.0) -> Any:
+    """(height, width, 4) smooth and random at once, the same each time."""
+    values = np.random.default_rng(width).random((height, width, 4)) * high
+    if not alpha:
+        values[..., 3] = 1
+    else:
+        values[..., 3] = np.linspace(0.1, 1, width)
+    return values.astype(np.float32)
+
+
+def _generated(width: int, height: int, is_float: bool = False, alpha: bool = False, space: str = "") -> Any:
+    image = bpy.data.images.new("generated", width, height, alpha=True, float_buffer=is_float)
+    if space:
+        image.colorspace_settings.name = space
+    image.pixels.foreach_set(_pixels(width, height, alpha, 3.0 if is_float else 1.0).ravel())
+    image.update()
+    return image
+
+
+def _saved(folder: Path, image: Any, kind: str, depth: str = "8", mode: str = "RGBA", path: Path | None = None) -> Any:
+    """The image as a file, loaded."""
+    path = path or folder / f"saved.{kind.lower()}"
+    settings = bpy.context.scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode, settings.color_depth = kind, mode, depth
+    bpy.context.scene.view_settings.view_transform = "Standard"
+    image.save_render(str(path))
+    loaded = bpy.data.images.load(str(path))
+    loaded.reload()
+    return loaded
+
+
+def _texture(tree: Any, image: Any, kind: str = "ShaderNodeTexImage", **settings: Any) -> Any:
+    node = tree.nodes.new(kind)
+    node.image = image
+    for name, value in settings.items():
+        setattr(node, name, value)
+    emission = next(n for n in tree.nodes if n.type in {"EMISSION", "BACKGROUND"})
+    tree.links.new(node.outputs["Color"], emission.inputs["Color"])
+    return node
+
+
+def _with_alpha(tree: Any, node: Any) -> None:
+    """The color times alpha / 2 + 1/2: both outputs are asked for."""
+    half = tree.nodes.new("ShaderNodeMath")
+    half.operation, half.inputs[1].default_value, half.inputs[2].default_value = "MULTIPLY_ADD", 0.5, 0.5
+    tree.links.new(node.outputs["Alpha"], half.inputs[0])
+    emission = next(n for n in tree.nodes if n.type == "EMISSION")
+    tree.links.new(half.outputs[0], emission.inputs["Strength"])
+
+
+def _variants() -> Iterator[tuple[str, dict[str, Any]]]:
+    for interpolation in ("Closest", "Linear", "Cubic", "Smart"):
+        yield f"{interpolation.lower()}", {"interpolation": interpolation}
+    for extension in ("EXTEND", "CLIP", *(("MIRROR",) if bpy.app.version >= (3, 5) else ())):
+        for interpolation in ("Closest", "Linear", "Cubic"):
+            name = f"{extension.lower()}_{interpolation.lower()}"
+            yield name, {"interpolation": interpolation, "extension": extension}
+
+
+for _name, _settings in _variants():
+    CASES[_name] = lambda tree, _, s=_settings: _with_alpha(tree, _texture(tree, _generated(5, 7), **s))
+
+
+@case
+def _float_image(tree: Any, _: Path) -> None:
+    _texture(tree, _generated(6, 4, is_float=True))
+
+
+@case
+def _non_color(tree: Any, _: Path) -> None:
+    _texture(tree, _generated(5, 7, space="Non-Color"))
+
+
+@case
+def _alpha_alone(tree: Any, _: Path) -> None:
+    node = _texture(tree, _generated(5, 7, alpha=True))
+    tree.links.new(node.outputs["Alpha"], next(n for n in tree.nodes if n.type == "EMISSION").inputs["Color"])
+
+
+def _alpha(mode: str, linked: bool) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, _: Path) -> None:
+        image = _generated(5, 7, alpha=True)
+        image.alpha_mode = mode
+        node = _texture(tree, image)
+        if linked:
+            _with_alpha(tree, node)
+
+    return make
+
+
+for _mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
+    CASES[f"alpha_{_mode.lower()}"] = _alpha(_mode, True)
+    CASES[f"alpha_{_mode.lower()}_unlinked"] = _alpha(_mode, False)
+
+
+def _file(kind: str, depth: str, mode: str, packed: bool) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, folder: Path) -> None:
+        image = _saved(folder, _generated(9, 5, is_float=kind == "OPEN_EXR", alpha=mode == "RGBA"), kind, depth, mode)
+        if packed:
+            image.pack()
+        _with_alpha(tree, _texture(tree, image))
+
+    return make
+
+
+for _kind, _depth, _mode, _packed in (
+    ("PNG", "8", "RGBA", False),
+    ("PNG", "8", "RGBA", True),
+    ("PNG", "8", "RGB", False),
+    ("PNG", "8", "BW", False),
+    ("PNG", "16", "RGB", False),
+    ("PNG", "16", "RGBA", False),
+    ("PNG", "16", "RGBA", True),
+    ("OPEN_EXR", "16", "RGBA", False),
+    ("OPEN_EXR", "32", "RGB", False),
+    ("OPEN_EXR", "32", "RGBA", True),
+    # Debian's Cycles reads mantissas half a step lower than Blender does.
+    *((("HDR", "32", "RGB", False),) if bpy.app.version >= (4, 0) else ()),
+):
+    CASES[f"{_kind}_{_depth}_{_mode}{'_packed' if _packed else ''}".lower()] = _file(_kind, _depth, _mode, _packed)
+
+
+def _projected(projection: str, blend: float = 0.0) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, _: Path) -> None:
+        node = _texture(tree, _generated(5, 7), projection=projection, projection_blend=blend)
+        geometry = tree.nodes.new("ShaderNodeNewGeometry")
+        tree.links.new(geometry.outputs["Position"], node.inputs["Vector"])
+        # Seen from inside, where no place is seen at grazing angles: there footprints are wider than a texel.
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12, radius=1.4, location=(0.1, 0.2, 4.5))
+        ball = bpy.context.object
+        ball.rotation_euler = (0.4, 0.5, 0.6)
+        ball.scale = (1.2, 1.2, 1.2)
+        ball.data.materials.append(bpy.data.materials["picture"])
+        ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+
+    return make
+
+
+for _projection in ("FLAT", "SPHERE", "TUBE", "BOX"):
+    CASES[f"project_{_projection.lower()}"] = _projected(_projection)
+CASES["project_box_blended"] = _projected("BOX", 0.4)
+CASES["project_box_all_blended"] = _projected("BOX", 1.0)
+
+
+@case
+def _environment_on_a_surface(tree: Any, _: Path) -> None:
+    _texture(tree, _generated(9, 5), "ShaderNodeTexEnvironment")
+
+
+@case
+def _mapped(tree: Any, _: Path) -> None:
+    mapping = _texture(tree, _generated(5, 7)).texture_mapping
+    mapping.translation, mapping.rotation, mapping.scale = (0.1, 0.2, 0.3), (0.1, 0.2, 0.5), (1.5, 0.7, 2)
+    mapping.vector_type = "TEXTURE"
+
+
+def _space(name: str, alpha: bool = False) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, _: Path) -> None:
+        _with_alpha(tree, _texture(tree, _generated(5, 7, alpha=alpha, space=name)))
+
+    return make
+
+
+CASES["space_filmic"] = _space("Filmic sRGB")
+CASES["space_filmic_alpha"] = _space("Filmic sRGB", alpha=True)
+CASES["space_acescg"] = _space("ACEScg" if bpy.app.version >= (4, 0) else "Linear ACEScg")
+CASES["space_linear"] = _space("Linear Rec.709" if bpy.app.version >= (4, 0) else "Linear")
+
+
+def _files(folder: Path, names: tuple[str, ...]) -> Any:
+    """The first of several, each of other pixels."""
+    for index, name in enumerate(names):
+        _saved(folder, _generated(4 + index, 5), "PNG", path=folder / name)
+    return bpy.data.images.load(str(folder / names[0]))
+
+
+def _sequence(scene_frame: int, **user: Any) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, folder: Path) -> None:
+        image = _files(folder, ("frame_007.png", "frame_008.png", "frame_009.png"))
+        image.source = "SEQUENCE"
+        node = _texture(tree, image)
+        for name, value in ({"frame_duration": 3, "frame_start": 1, "frame_offset": 6} | user).items():
+            setattr(node.image_user, name, value)
+        bpy.context.scene.frame_set(scene_frame)
+
+    return make
+
+
+CASES["sequence"] = _sequence(2)
+CASES["sequence_held"] = _sequence(9)
+CASES["sequence_cyclic"] = _sequence(5, use_cyclic=True)
+
+
+def _tiled(missing: int) -> Callable[[Any, Path], Any]:
+    """Three tiles; where the fourth would be nothing is."""
+
+    def make(tree: Any, folder: Path) -> None:
+        image = _files(folder, ("tile.1001.png", "tile.1002.png", "tile.1011.png"))
+        image.source = "TILED"
+        for number in (1002, 1011):
+            image.tiles.new(number)
+        image.filepath = str(folder / "tile.<UDIM>.png")
+        (folder / f"tile.{missing}.png").unlink(missing_ok=True)
+        _texture(tree, image)
+
+    return make
+
+
+CASES["tiles"] = _tiled(0)
+CASES["tiles_without_one"] = _tiled(1011)
+
+
+@case
+def _missing_file(tree: Any, folder: Path) -> None:
+    image = _saved(folder, _generated(4, 4), "PNG")
+    image.filepath = str(folder / "nowhere.png")
+    _texture(tree, image)
+
+
+@case
+def _no_image(tree: Any, _: Path) -> None:
+    _texture(tree, None)
+
+
+def _world(projection: str, interpolation: str = "Linear", is_float: bool = True) -> Callable[[Any, Path], Any]:
+    def make(_tree: Any, _: Path) -> bool:
+        tree = parts.world((0, 0, 0)).node_tree
+        image = _generated(16, 8, is_float=is_float)
+        _texture(tree, image, "ShaderNodeTexEnvironment", projection=projection, interpolation=interpolation)
+        return True
+
+    return make
+
+
+CASES["world"] = _world("EQUIRECTANGULAR")
+CASES["world_cubic_bytes"] = _world("EQUIRECTANGULAR", "Cubic", False)
+CASES["world_mirror_ball"] = _world("MIRROR_BALL")
