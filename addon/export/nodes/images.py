@@ -53,7 +53,7 @@ def _looked_up(
     wants_alpha = any(output.is_linked for output in blender_node.outputs if output.identifier == "Alpha")
     unassociate = picture.is_associated and wants_alpha
     settings = [_INTERPOLATIONS[blender_node.interpolation], extension, unassociate, closed_u]
-    places = [coordinate(node), *(coordinate(node.beside(other)) for other in {0, 1, 2} - {node.neighbour})]
+    places = _footprint(node, coordinate)
     if op == "image_box":
         settings.append(blender_node.projection_blend)
     elif picture.is_tiled:
@@ -63,6 +63,18 @@ def _looked_up(
         return _output(node, rgba)
     image = picture.tiles.get((0, 0))
     return _output(node, node.op(op, *places, settings=settings, image=image) if image else program.colour(_PINK))
+
+
+def _footprint(node: Node, coordinate: Callable[[Node], Value]) -> list[Value]:
+    """Where the image is looked up, and two places at the edges of what is averaged.
+
+    Where bump mapping looks, that is as large as at the place itself: else its differences were those of averages.
+    """
+    own = coordinate(node)
+    here, *others = (coordinate(node.beside(other)) for other in range(3))
+    if node.neighbour == 0:
+        return [own, *others]
+    return [own, *(own + (other - here) for other in others)]
 
 
 def _output(node: Node, rgba: Value) -> Value:

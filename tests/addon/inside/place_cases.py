@@ -253,7 +253,23 @@ def _cases() -> Iterator[tuple[str, Make]]:
             yield f"normal map {space} {strength}", node("NormalMap", "Normal", ("Color", GENERATED), **settings)
     yield "bump", BUMP
     yield "weak bump", node("Bump", "Normal", ("Height", WAVES), Distance=0.3, Strength=0.4, invert=True)
+    yield "bump of an image", _bump_of_image
     yield "bumped twice", node("Bump", "Normal", ("Height", GENERATED), ("Normal", BUMP), Distance=0.5)
+
+
+def _bump_of_image(tree: Any, ball: Any) -> Any:
+    """By an image of waves, of pixels larger than the picture's: these are not averaged."""
+    image = bpy.data.images.get("waves") or bpy.data.images.new("waves", 8, 8, float_buffer=True)
+    x, y = np.meshgrid(np.arange(8) / 8, np.arange(8) / 8)
+    wave = 0.5 + 0.5 * np.sin(2 * np.pi * (x + y))
+    image.pixels.foreach_set(np.stack([wave, wave, wave, np.ones_like(wave)], axis=-1).astype(np.float32).ravel())
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image, texture.interpolation = image, "Cubic"
+    tree.links.new(GENERATED(tree, ball), texture.inputs["Vector"])
+    bump = tree.nodes.new("ShaderNodeBump")
+    bump.inputs["Distance"].default_value = 0.1
+    tree.links.new(texture.outputs["Color"], bump.inputs["Height"])
+    return bump.outputs["Normal"]
 
 
 def _of_object(tree: Any, ball: Any) -> Any:
