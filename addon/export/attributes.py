@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .islands import random_of_islands
 from .mesh import MeshArrays, corner_normals
 from .tangents import corner_tangents
 
@@ -163,10 +164,17 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
         result.vertex_attributes[name] = sums / np.maximum(counts, 1)[:, None].astype(np.float32)
 
 
+def _island(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
+    edges = np.empty(len(mesh.edges) * 2, np.int32)
+    mesh.edges.foreach_get("vertices", edges)
+    result.vertex_attributes[name] = random_of_islands(len(mesh.vertices), edges.reshape(-1, 2))[:, None]
+
+
 _OF_MESH: dict[str, Callable[[bpy.types.Mesh, MeshArrays, str, str, MeshAttributes], None]] = {
     "uv": _uv,
     "tangent": _tangent,
     "generated": _generated,
     "color": _color,
+    "island": _island,
     "attribute": _named,
 }

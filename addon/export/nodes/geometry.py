@@ -63,6 +63,8 @@ def _geometry(node: Node) -> Value:
         return node.op(_GEOMETRY[node.output])
     if node.output == "Tangent":
         return _radial_tangent(node, "Z")
+    if node.output == "Random Per Island":
+        return mesh_attribute(node, "island:")[0]
     node.warn(f"{node.output} is not supported, it is 0.5")
     return node.program.number(0.5)
 

@@ -214,6 +214,7 @@ def _cases() -> Iterator[tuple[str, Make]]:
     yield "UV of no name", node("UVMap", "UV", uv_map="none")
     for output in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing"):
         yield f"geometry {output}", node("NewGeometry", output)
+    yield "geometry island", node("NewGeometry", "Random Per Island")
     for output in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
         if output != "Alpha" or bpy.app.version >= (3, 5):
             yield f"object {output}", node("ObjectInfo", output)
