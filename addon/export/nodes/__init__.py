@@ -106,6 +106,11 @@ def source(target: Socket) -> Socket | None:
         if link is None:
             return target._replace(passed=passed)
         follow = _through(Socket(link.from_socket, target.groups))
+        if link.from_node.mute and link.from_node.type != "REROUTE":
+            if follow is None or (_UNFED_IS_UNLINKED and not follow.socket.is_linked):
+                return target._replace(passed=passed)  # as if there were no link
+            if not follow.socket.is_linked:
+                return None
         if follow is None or follow.socket.is_output:
             return None if follow is None else follow._replace(passed=passed)
         passed += (link.from_socket.type, follow.socket.type)
@@ -195,7 +200,9 @@ def _value(target: Socket, owner: Owner) -> tuple[Value | None, str]:
     if feed is None:
         return owner.program.number(0.0), "VALUE"
     value, kind = _given(feed, owner)
-    for passed in reversed(feed.passed if value is not None else ()):
+    if value is None or (kind == "RGBA" and not _COLOURS_CONVERT):
+        return value, kind
+    for passed in reversed(feed.passed):
         if passed in _NUMBERS:
             value, kind = _as_number(value, kind), passed
         elif passed in _TRIPLES:
@@ -210,6 +217,9 @@ def _as_number(value: Value, kind: str) -> Value:
     return value.mean() if kind == "VECTOR" else value.luminance()
 
 
+_UNFED_IS_UNLINKED = bpy.app.version >= (5, 0)  # what a muted node passes on of an input that nothing feeds; before: 0
+# From 5.0 on, Blender hands Cycles a tree without groups, in which colours have passed their sockets as they were.
+_COLOURS_CONVERT = bpy.app.version < (5, 0)
 _NUMBERS, _TRIPLES = {"VALUE", "INT", "BOOLEAN"}, {"RGBA", "VECTOR"}  # types of sockets
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from node_kinds import node_kinds
+from node_kinds import node_kinds, passed_on
 from node_tiles import render, tiles
 from recording import record
 
@@ -23,5 +23,5 @@ def main(folder: Path) -> Any:
 
 
 def _kinds() -> Iterator[tuple[str, Any]]:
-    for name, make in node_kinds():
+    for name, make in (*node_kinds(), *passed_on()):
         yield name, lambda tree, _, make=make: make(tree)

@@ -155,6 +155,43 @@ def _curved(kind: str, heights: tuple[float, ...], extend: str, *inputs: Any) ->
     return make
 
 
+def passed_on() -> Iterator[tuple[str, Make]]:
+    """What a muted node passes on of an input that nothing feeds, and sockets of groups on the way."""
+    yield "muted of nothing", _muted("RGBToBW", WARM)
+    for kind in ("Float", "Vector", "Color"):
+        yield f"through a group's {kind}", _through_group(kind)
+
+
+def _muted(*arguments: Any) -> Make:
+    def make(tree: Any) -> Any:
+        output = _node(*arguments)(tree)
+        output.node.mute = True
+        return output
+
+    return make
+
+
+def _through_group(kind: str) -> Make:
+    """A colour by way of a group whose only sockets are of a type, in and out."""
+
+    def make(tree: Any) -> Any:
+        group = bpy.data.node_groups.new(f"through {kind}", "ShaderNodeTree")
+        if hasattr(group, "interface"):
+            for direction in ("INPUT", "OUTPUT"):
+                group.interface.new_socket("Passed", in_out=direction, socket_type=f"NodeSocket{kind}")
+        else:
+            group.inputs.new(f"NodeSocket{kind}", "Passed")
+            group.outputs.new(f"NodeSocket{kind}", "Passed")
+        start, end = (group.nodes.new(f"NodeGroup{side}") for side in ("Input", "Output"))
+        group.links.new(start.outputs[0], end.inputs[0])
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(_node("Invert", 1.0, WARM)(tree), node.inputs[0])
+        return node.outputs[0]
+
+    return make
+
+
 def _ramps() -> Iterator[tuple[str, Make]]:
     kinds = [("RGB", kind, "NEAR") for kind in ("LINEAR", "CONSTANT", "EASE", "CARDINAL", "B_SPLINE")]
     turns = ("NEAR", "FAR", "CW", "CCW")
