@@ -29,14 +29,15 @@ def mesh_attribute(node: Node, name: str, missing: float = 1.0) -> Value:
     return node.op("attribute", settings=[node.program.attribute_id(name), missing])
 
 
-def _generated(node: Node) -> Value:
+def generated(node: Node) -> Value:
+    """Generated coordinates; of the world, the direction."""
     return node.op("position") if node.is_world else mesh_attribute(node, "generated:")[:3]
 
 
 def _texture_coordinate(node: Node) -> Value:
     from_instancer, target = node.node.from_instancer, node.node.object
     if node.output == "Generated":
-        return node.op("instance_generated") if from_instancer else _generated(node)
+        return node.op("instance_generated") if from_instancer else generated(node)
     if node.output == "UV":
         return node.op("instance_uv") if from_instancer else mesh_attribute(node, "uv:")[:3]
     if node.output == "Object" and target is not None:
@@ -70,7 +71,7 @@ def _geometry(node: Node) -> Value:
 
 
 def _radial_tangent(node: Node, axis: str) -> Value:
-    centred = _generated(node) - 0.5
+    centred = generated(node) - 0.5
     x, y, z = (centred[i] for i in range(3))
     zero = node.program.number(0.0)
     parts = {"X": (zero, 0.0 - z, y), "Y": (0.0 - z, zero, x), "Z": (0.0 - y, x, zero)}[axis]

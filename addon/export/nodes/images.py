@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
-
-import mathutils
-import numpy as np
 
 from ..program import Value
+from .geometry import mesh_attribute
 from .row import Node, Row
+from .texture_mapping import mapped
 
 _PINK = (1.0, 0.0, 1.0, 1.0)  # what is missing [C]
 _INTERPOLATIONS = {"Closest": 0, "Linear": 1, "Cubic": 2, "Smart": 2}  # the core's
@@ -82,47 +80,13 @@ def _output(node: Node, rgba: Value) -> Value:
 
 
 def _mapped_uv(node: Node) -> Value:
-    uv = node.vector("Vector") if node.is_linked("Vector") else _active_uv(node)
-    return _mapped(uv, node.node.texture_mapping)
-
-
-def _active_uv(node: Node) -> Value:
-    return node.op("attribute", settings=[node.program.attribute_id("uv:")])[:3]
+    uv = node.vector("Vector") if node.is_linked("Vector") else mesh_attribute(node, "uv:")[:3]
+    return mapped(uv, node.node.texture_mapping)
 
 
 def _mapped_direction(node: Node) -> Value:
     direction = node.vector("Vector") if node.is_linked("Vector") else node.op("position")
-    return _mapped(direction, node.node.texture_mapping)
-
-
-def _mapped(at: Value, mapping: Any) -> Value:
-    """By the mapping that a texture node has of its own, which no panel shows."""
-    matrix = _matrix(mapping)
-    if not np.array_equal(matrix, np.eye(4)):
-        rows = [sum((at[i] * float(row[i]) for i in range(3)), at.program.number(float(row[3]))) for row in matrix[:3]]
-        at = Value(tuple(row.parts[0] for row in rows), at.program)
-    return at.program.op("vector_normalize", at) if mapping.vector_type == "NORMAL" else at
-
-
-def _matrix(mapping: Any) -> np.ndarray:
-    """(4, 4) [C]"""
-    kind = mapping.vector_type
-    scale = np.array(mapping.scale, float)
-    if kind in {"TEXTURE", "NORMAL"}:
-        scale = np.where(np.abs(scale) < 1e-5, np.copysign(1e-5, scale), scale)
-    turn = np.array(mathutils.Euler(mapping.rotation).to_matrix()) @ np.diag(scale)
-    matrix = np.eye(4)
-    matrix[:3, :3] = np.linalg.inv(turn).T if kind == "NORMAL" else turn
-    if kind in {"TEXTURE", "POINT"}:
-        matrix[:3, 3] = mapping.translation
-    if kind == "TEXTURE":
-        matrix = np.linalg.inv(matrix)
-    choice = np.zeros((4, 4))
-    choice[3, 3] = 1
-    for row, axis in enumerate((mapping.mapping_x, mapping.mapping_y, mapping.mapping_z)):
-        if axis != "NONE":
-            choice[row, "XYZ".index(axis)] = 1
-    return matrix @ choice
+    return mapped(direction, node.node.texture_mapping)
 
 
 ROWS: dict[str, Row] = {

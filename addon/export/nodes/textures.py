@@ -9,10 +9,11 @@ import math
 from collections.abc import Callable
 
 import bpy
-import mathutils
 
 from ..program import Value
+from .geometry import generated
 from .row import Node, Row
+from .texture_mapping import mapped
 
 _DEEPEST = 15.0  # octaves beyond the first
 _BIAS, _SHRINK = 1e-6, 0.999999  # that keep whole numbers off the edges of a pattern
@@ -20,41 +21,7 @@ _BIAS, _SHRINK = 1e-6, 0.999999  # that keep whole numbers off the edges of a pa
 
 def texture_vector(node: Node) -> Value:
     """Where a texture is looked up: what its Vector is linked to, else generated coordinates; by its mapping."""
-    if node.is_linked("Vector"):
-        vector = node.vector("Vector")
-    else:
-        vector = node.op("attribute", settings=[node.program.attribute_id("generated")])[:3]
-    return _mapped(node.node.texture_mapping, vector)
-
-
-def _mapped(mapping: bpy.types.TexMapping, vector: Value) -> Value:
-    """By the mapping that textures have of their own, which only files and scripts set. Its limits are not Cycles'."""
-    axes = [mapping.mapping_x, mapping.mapping_y, mapping.mapping_z]
-    scale, translation = mathutils.Vector(mapping.scale), mathutils.Vector(mapping.translation)
-    is_plain = not any((*translation, *mapping.rotation)) and all(part == 1.0 for part in scale)
-    if is_plain and axes == ["X", "Y", "Z"]:
-        return vector
-    kind = mapping.vector_type
-    if kind in {"TEXTURE", "NORMAL"}:  # which are inverted
-        scale = mathutils.Vector([part if abs(part) >= 1e-5 else math.copysign(1e-5, part) for part in scale])
-    matrix = mathutils.Euler(mapping.rotation).to_matrix() @ mathutils.Matrix.Diagonal(scale)
-    offset = translation if kind == "POINT" else mathutils.Vector((0, 0, 0))
-    if kind == "TEXTURE":
-        matrix = matrix.inverted()
-        offset = -(matrix @ translation)
-    if kind == "NORMAL":
-        matrix = matrix.inverted().transposed()
-    chosen = [vector["XYZ".index(axis)] if axis != "NONE" else vector.program.number(0.0) for axis in axes]
-    rows = [
-        sum((part * factor for part, factor in zip(chosen, row, strict=True)), start=vector.program.number(offset[i]))
-        for i, row in enumerate(matrix)
-    ]
-    mapped = _joined(*rows)
-    return mapped.program.op("vector_normalize", mapped) if kind == "NORMAL" else mapped
-
-
-def _joined(*values: Value) -> Value:
-    return Value(tuple(part for value in values for part in value.parts), values[0].program)
+    return mapped(node.vector("Vector") if node.is_linked("Vector") else generated(node), node.node.texture_mapping)
 
 
 def _point(node: Node, dimensions: int) -> Value:
@@ -66,7 +33,7 @@ def _point(node: Node, dimensions: int) -> Value:
     if dimensions in {1, 4}:
         axes.append(node.number("W"))
     scale = node.number("Scale")
-    return _joined(*(axis * scale for axis in axes))
+    return node.program.joined(*(axis * scale for axis in axes))
 
 
 def _octaves(detail: Value) -> Value:
@@ -94,8 +61,8 @@ def _moved(node: Node, point: Value, seed: int) -> Value:
     """Moved far enough that the noise there is another one."""
     count = len(point.parts)
     seeds = [[seed] if count == 1 else [seed, axis] for axis in range(count)]
-    random = [node.op(f"white_noise_{len(key)}d", _joined(*map(node.program.number, key))) for key in seeds]
-    return _joined(*(point[i] + (random[i] * 100.0 + 100.0) for i in range(count)))
+    random = [node.op(f"white_noise_{len(key)}d", node.program.joined(*map(node.program.number, key))) for key in seeds]
+    return node.program.joined(*(point[i] + (random[i] * 100.0 + 100.0) for i in range(count)))
 
 
 def _noise(node: Node) -> Value:
@@ -105,7 +72,7 @@ def _noise(node: Node) -> Value:
     distortion = node.number("Distortion")
     if not distortion.is_always(0.0):
         noises = [_noise_op(node, "noise", _moved(node, point, seed)) for seed in range(dimensions)]
-        point = _joined(*(point[i] + noises[i] * distortion for i in range(dimensions)))
+        point = node.program.joined(*(point[i] + noises[i] * distortion for i in range(dimensions)))
     roughness = node.number("Roughness").at_least(0.0)
     fractal = _fractal(
         node,
@@ -117,7 +84,7 @@ def _noise(node: Node) -> Value:
     )
     if node.output != "Color":
         return fractal(point)
-    return _joined(fractal(point), *(fractal(_moved(node, point, dimensions + i)) for i in range(2)))
+    return node.program.joined(fractal(point), *(fractal(_moved(node, point, dimensions + i)) for i in range(2)))
 
 
 def _musgrave(node: Node) -> Value:
@@ -247,7 +214,7 @@ def _white_noise(node: Node) -> Value:
     axes = [node.vector("Vector")[: min(dimensions, 3)]] if dimensions > 1 else []
     axes += [node.number("W")] if dimensions in {1, 4} else []
     name = "white_noise_color" if node.output == "Color" else "white_noise"
-    return node.op(f"{name}_{dimensions}d", _joined(*axes))
+    return node.op(f"{name}_{dimensions}d", node.program.joined(*axes))
 
 
 ROWS: dict[str, Row] = {

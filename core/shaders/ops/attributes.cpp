@@ -1,4 +1,5 @@
 // What meshes and objects keep for shaders.
+#include "core/shaders/ops/hash.h"
 #include "core/shaders/ops/tables.h"
 
 namespace pivot {
@@ -83,13 +84,14 @@ Vec3b fact_vector(const Place& place) {
     });
 }
 
-/// [0, 1] of a whole number. [Jenkins06, lookup3's final mixing, seeded as in Cycles 4.5 util/hash.h, hash_uint2]
-float hashed(float whole) {
-    constexpr std::uint32_t seed = 0xdeadbeefu + (2u << 2u) + 13u;
-    std::uint32_t a = seed + static_cast<std::uint32_t>(whole), b = seed, c = seed;
-    const auto mix = [](std::uint32_t& x, std::uint32_t y, int turn) { x = (x ^ y) - std::rotl(y, turn); };
-    mix(c, b, 14), mix(a, c, 11), mix(b, a, 25), mix(c, b, 16), mix(a, c, 4), mix(b, a, 14), mix(c, b, 24);
-    return static_cast<float>(c) * (1.0f / static_cast<float>(0xffffffffu));
+Batch particle_index(const Place& place) {
+    return fact<[](const ObjectFacts& o) { return o.particle_index; }>(place);
+}
+
+/// [0, 1], as Cycles hashes a particle's index.
+Batch particle_random(const Place& place) {
+    const auto index = std::bit_cast<WordBatch>(to_index(particle_index(place)));
+    return to_unit_inclusive(hash(Words<2>{index, WordBatch(0u)}));
 }
 
 constexpr std::array ops{
@@ -100,8 +102,8 @@ constexpr std::array ops{
     op<fact<[](const ObjectFacts& o) { return o.alpha; }>>("object_alpha"),
     op<fact<[](const ObjectFacts& o) { return o.pass_index; }>>("object_index"),
     op<fact<[](const ObjectFacts& o) { return o.random; }>>("object_random"),
-    op<fact<[](const ObjectFacts& o) { return o.particle_index; }>>("particle_index"),
-    op<fact<[](const ObjectFacts& o) { return hashed(o.particle_index); }>>("particle_random"),
+    op<particle_index>("particle_index"),
+    op<particle_random>("particle_random"),
     op<fact_vector<[](const ObjectFacts& o) { return o.generated; }>>("instance_generated"),
     op<fact_vector<[](const ObjectFacts& o) { return Vec3f(o.uv, 0.0f); }>>("instance_uv"),
 };
