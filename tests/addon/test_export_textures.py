@@ -52,5 +52,11 @@ def test_tiles_vary(cases: Any, folder: Path) -> None:
     assert plain == ["output that is not there"]  # the input's own colour counts
 
 
+def test_a_texture_of_the_world_is_cycles(cases: Any, folder: Path) -> None:
+    cycles, pivot = (_picture(folder / f"world_{engine}.exr") for engine in ("CYCLES", "PIVOT"))
+    assert np.ptp(cycles) > 0.1
+    np.testing.assert_allclose(pivot, cycles, rtol=2e-3, atol=2e-3)
+
+
 def test_a_first_register_is_no_number(cases: Any) -> None:
     assert cases["varies"]

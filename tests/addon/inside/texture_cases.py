@@ -57,10 +57,11 @@ def main(folder: Path) -> Any:
     rows = math.ceil(len(names) / COLUMNS)
     parts.camera((COLUMNS, rows, max(COLUMNS, rows))).data.angle = math.pi / 2
     parts.size(TILE_PX * COLUMNS, TILE_PX * rows)
-    _render("CYCLES", folder)
-    _render("PIVOT", folder)
+    _render("CYCLES", folder / "textures_CYCLES.exr")
+    _render("PIVOT", folder / "textures_PIVOT.exr")
     program = sys.modules["pivot.export.program"].Program(sys.modules["pivot_core"], None, None)
     first = program.op("position")[0]
+    _world(folder)
     return {"names": names, "columns": COLUMNS, "tile_px": TILE_PX, "varies": not first.is_always(0.0)}
 
 
@@ -181,7 +182,18 @@ def _part(tree: Any, vector: Any, offset: float) -> Any:
     return total.outputs[0]
 
 
-def _render(engine: str, folder: Path) -> None:
+def _world(folder: Path) -> None:
+    """Noise all around, its Vector not linked: where there is no mesh, generated coordinates are the direction."""
+    parts.clear()
+    tree = parts.world((1, 1, 1)).node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    tree.links.new(noise.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    parts.camera(rotation=(1.3, 0, 0.5))
+    for engine in ("CYCLES", "PIVOT"):
+        _render(engine, folder / f"world_{engine}.exr")
+
+
+def _render(engine: str, path: Path) -> None:
     """Each pixel's centre."""
     scene = bpy.context.scene
     render = scene.render
@@ -190,5 +202,5 @@ def _render(engine: str, folder: Path) -> None:
     scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
     scene.pivot.samples, render.filter_size = 1, 0.01
     render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
-    render.filepath = str(folder / f"textures_{engine}.exr")
+    render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
