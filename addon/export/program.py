@@ -17,6 +17,10 @@ from .colour_space import LUMINANCE
 from .images import ImageTable
 
 
+class UnknownOp(LookupError):
+    """The core has no op of this name."""
+
+
 class Register(NamedTuple):
     index: int
 
@@ -146,6 +150,15 @@ class Program:
         """The parts of several values as those of one."""
         return Value(tuple(part for value in parts for part in value.parts), self)
 
+    def _signature(self, name: str) -> tuple[int, int, bool]:
+        if name not in self.ops:
+            raise UnknownOp(name)
+        return self.ops[name]
+
+    def input_count(self, name: str) -> int:
+        """How many numbers an op takes. Raises UnknownOp."""
+        return self._signature(name)[0]
+
     def op(
         self,
         name: str,
@@ -154,8 +167,8 @@ class Program:
         image: Any = None,
         neighbour: int = 0,
     ) -> Value:
-        """What an op gives: as many parts as it has outputs. Raises KeyError for one that is not known."""
-        input_count, output_count, reads_place = self.ops[name]
+        """What an op gives: as many parts as it has outputs. Raises UnknownOp."""
+        input_count, output_count, reads_place = self._signature(name)
         parts = [part for value in inputs for part in value.parts]
         if len(parts) != input_count:
             raise ValueError(f"op {name} takes {input_count} numbers, not {len(parts)}")

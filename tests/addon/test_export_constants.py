@@ -61,11 +61,13 @@ def test_every_node_was_tried(cases: Any, host: Host) -> None:
     assert cases["names"].count("") == gone
 
 
-def test_what_varies_is_cycles(varying: Any, folder: Path) -> None:
+def test_what_varies_is_cycles(varying: Any, folder: Path, host: Host) -> None:
+    """Since Blender 5.2 a blackbody that varies passes a matrix in Cycles that is not quite one: 1.6e-4 in red."""
     cycles, pivot = (tiles(varying, folder / f"{engine}.exr") for engine in ("cycles", "pivot"))
     wrong = {}
     for name, tile in cycles.items():
-        same = np.isclose(pivot[name], tile, rtol=1e-4, atol=1e-5).all(axis=-1)
+        rtol = 3e-4 if name.startswith("blackbody") and host.version >= (5, 2) else 1e-4
+        same = np.isclose(pivot[name], tile, rtol=rtol, atol=1e-5).all(axis=-1)
         if not same.all():
             row, column = np.argwhere(~same)[0]
             wrong[name] = (row, column, pivot[name][row, column].tolist(), tile[row, column].tolist())

@@ -188,5 +188,14 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
     assert said == expected
 
 
+def test_an_operation_of_a_newer_blender_is_said(cases: Any) -> None:
+    """And the input that it feeds keeps its own value."""
+    node = "object 'wave quad', material 'wave', node 'Vector Math'"
+    assert cases["newer"] == {
+        "emission": [1, 1, 1],
+        "reports": [f"Pivot: {node}: math_sine of Vector Math nodes is not supported, it stands for a constant"],
+    }
+
+
 def test_view_layer_override(cases: Any) -> None:
     assert cases["override"] == [["clay"], ["clay"]]

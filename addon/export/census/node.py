@@ -67,7 +67,7 @@ NODE = {
     "ShaderNodeAttribute": Table(used="attribute_type attribute_name"),
     "ShaderNodeVertexColor": Table(used="layer_name"),
     "ShaderNodeVectorTransform": Table(used="vector_type convert_from convert_to"),
-    "ShaderNodeNormalMap": Table(used="space uv_map"),
+    "ShaderNodeNormalMap": Table(used="space uv_map convention@5.2", no_meaning="base@5.2"),
     "ShaderNodeBump": Table(used="invert"),
     "ShaderNodeDisplacement": Table(used="space"),
     # These are reported whenever they are met.

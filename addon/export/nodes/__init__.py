@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ...report import Reporter
-from ..program import Program, Value
+from ..program import Program, UnknownOp, Value
 from . import colours, curves, geometry, images, maths, normals, object, ray, textures
 from .row import Row
 
@@ -229,13 +229,17 @@ def _given(feed: Socket, owner: Owner) -> tuple[Value | None, str]:
     if not feed.socket.is_output or node.type in {"RGB", "VALUE"}:
         own = _own_value(feed.socket)
         return (owner.program.number(own[0]) if own.size == 1 else owner.program.colour(own)), kind
+    lack = f"{node.bl_label} nodes are"
     if node.type in ROWS:
-        return ROWS[node.type](Node(feed, owner)), kind
+        try:
+            return ROWS[node.type](Node(feed, owner)), kind
+        except UnknownOp as op:  # a setting of a newer Blender's
+            lack = f"{op} of {node.bl_label} nodes is"
     colours = [Socket(s, feed.groups) for s in node.inputs if s.type == "RGBA" and s.enabled]
     if not colours:
-        owner.warn(node, f"{node.bl_label} nodes are not supported, it stands for a constant")
+        owner.warn(node, f"{lack} not supported, it stands for a constant")
         return None, kind
-    owner.warn(node, f"{node.bl_label} nodes are not supported, it stands for the mean of its colours")
+    owner.warn(node, f"{lack} not supported, it stands for the mean of its colours")
     total = sum((colour(c, owner) for c in colours), start=owner.program.colour((0, 0, 0)))
     return total / float(len(colours)), kind
 

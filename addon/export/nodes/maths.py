@@ -5,34 +5,23 @@ from __future__ import annotations
 from ..program import Value
 from .row import Node, Row
 
-# How many of the node's inputs an operation reads, where not as many as the core's op of its name.
-_BY_NUMBERS = {  # operations of Vector Math that are those of Math on each part
-    "ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "MULTIPLY_ADD", "POWER", "SIGN", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR",
-    "CEIL", "FRACTION", "MODULO", "WRAP", "SNAP", "SINE", "COSINE", "TANGENT",
-}  # fmt: skip
-
-
-def _op_inputs(node: Node, op: str, width: int) -> int:
-    input_count, _, _ = node.program.ops[op]
-    return input_count // width
-
 
 def _math(node: Node) -> Value:
     op = f"math_{node.node.operation.lower()}"
-    value = node.op(op, *(node.number(index) for index in range(_op_inputs(node, op, 1))))
+    value = node.op(op, *(node.number(index) for index in range(node.program.input_count(op))))
     return value.clamped() if node.node.use_clamp else value
 
 
 def _vector_math(node: Node) -> Value:
     operation = node.node.operation
-    if operation in _BY_NUMBERS:
-        op = "math_fract" if operation == "FRACTION" else f"math_{operation.lower()}"
-        return node.program.each(op, *(node.vector(index) for index in range(_op_inputs(node, op, 1))))
     op = f"vector_{operation.lower()}"
+    if op not in node.program.ops:  # it is that of Math on each part
+        op = "math_fract" if operation == "FRACTION" else f"math_{operation.lower()}"
+        return node.program.each(op, *(node.vector(index) for index in range(node.program.input_count(op))))
     if operation in {"SCALE", "REFRACT"}:
         vectors = [node.vector(index) for index in range(1 if operation == "SCALE" else 2)]
         return node.op(op, *vectors, node.number("Scale"))
-    return node.op(op, *(node.vector(index) for index in range(_op_inputs(node, op, 3))))
+    return node.op(op, *(node.vector(index) for index in range(node.program.input_count(op) // 3)))
 
 
 def _clamp(node: Node) -> Value:

@@ -35,6 +35,8 @@ def _vector_transform(node: Node) -> Value:
 def _normal_map(node: Node) -> Value:
     space = node.node.space
     colour, strength = node.colour("Color"), node.number("Strength")
+    if getattr(node.node, "convention", "OPENGL") == "DIRECTX":  # since Blender 5.2
+        colour = node.program.joined(colour[0], 1.0 - colour[1], colour[2])
     if space == "TANGENT":
         tangent = mesh_attribute(node, f"tangent:{node.node.uv_map}", 0.0)
         if _OLD_NORMALS:

@@ -1,6 +1,7 @@
 """Nodes of textures that are computed: noise, cells, waves, bricks.
 
-Where Blender's versions differ, these follow the one that runs. [Cycles' kernel/svm of 3.4, 4.0, 4.1, 4.2, 4.5, 5.0]
+Where Blender's versions differ, these follow the one that runs.
+[Cycles' kernel/svm of 3.4, 4.0, 4.1, 4.2, 4.5, 5.0, 5.2]
 """
 
 from __future__ import annotations
@@ -163,8 +164,10 @@ def _wave(node: Node) -> Value:
 
 
 def _magic(node: Node) -> Value:
-    inputs = (texture_vector(node), node.number("Scale"), node.number("Distortion"))
-    result = node.op("magic", *inputs, settings=[node.node.turbulence_depth])
+    point, scale = texture_vector(node), node.number("Scale")
+    if bpy.app.version >= (5, 2):  # turns are cut off what is scaled, not what is given
+        point, scale = point * scale, node.program.number(1.0)
+    result = node.op("magic", point, scale, node.number("Distortion"), settings=[node.node.turbulence_depth])
     return result if node.output == "Color" else result.mean()
 
 

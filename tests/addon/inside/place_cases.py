@@ -252,6 +252,9 @@ def _cases() -> Iterator[tuple[str, Make]]:
         for strength in (1.0, 0.4):
             settings = {"space": space, "Strength": strength}
             yield f"normal map {space} {strength}", node("NormalMap", "Normal", ("Color", GENERATED), **settings)
+            if bpy.app.version >= (5, 2):
+                settings["convention"] = "DIRECTX"
+                yield f"DirectX map {space} {strength}", node("NormalMap", "Normal", ("Color", GENERATED), **settings)
     yield "bump", BUMP
     yield "weak bump", node("Bump", "Normal", ("Height", WAVES), Distance=0.3, Strength=0.4, invert=True)
     yield "bump of an image", _bump_of_image

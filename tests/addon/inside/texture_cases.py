@@ -23,13 +23,13 @@ VORONOI_PLACES = {"Position": ("2D", "3D", "4D"), "W": ("1D", "4D")}  # outputs,
 RANGES = {  # of inputs that are drawn; others stay
     "W": (-2, 2),
     "Scale": (0.5, 6),
-    "Detail": (0, 5),
+    "Detail": (0, 3),
     "Roughness": (0.1, 0.9),
     "Lacunarity": (1.5, 3),
     "Dimension": (0, 2),
     "Offset": (0, 1),
     "Gain": (0, 3),
-    "Distortion": (0.2, 3),
+    "Distortion": (0.2, 1.5),
     "Smoothness": (0.1, 1),
     "Exponent": (0.5, 4),
     "Randomness": (0.5, 1),
@@ -174,9 +174,10 @@ def _steps(tree: Any, origin: Any) -> Any:
 
 
 def _part(tree: Any, vector: Any, offset: float) -> Any:
-    """A vector's first number, and more."""
+    """A third of a vector's first number, and more."""
     part, total = tree.nodes.new("ShaderNodeSeparateXYZ"), tree.nodes.new("ShaderNodeMath")
-    total.inputs[1].default_value = offset
+    total.operation = "MULTIPLY_ADD"
+    total.inputs[1].default_value, total.inputs[2].default_value = 0.3, offset
     tree.links.new(vector, part.inputs[0])
     tree.links.new(part.outputs[0], total.inputs[0])
     return total.outputs[0]
