@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .islands import random_of_islands
 from .mesh import MeshArrays, corner_normals
+from .pointiness import pointiness
 from .tangents import corner_tangents
 
 Array = NDArray[np.float32]
@@ -156,8 +157,7 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
         mesh.polygons.foreach_get("loop_total", sizes)
         result.corner_attributes[name] = np.repeat(values, sizes, axis=0)
     elif attribute.domain == "EDGE":  # its mean at each vertex
-        ends = np.empty(len(mesh.edges) * 2, np.int32)
-        mesh.edges.foreach_get("vertices", ends)
+        ends = _edges(mesh).ravel()
         sums = np.zeros((len(mesh.vertices), width), np.float32)
         np.add.at(sums, ends, np.repeat(values, 2, axis=0))
         counts = np.bincount(ends, minlength=len(sums))
@@ -165,9 +165,21 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
 
 
 def _island(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
-    edges = np.empty(len(mesh.edges) * 2, np.int32)
-    mesh.edges.foreach_get("vertices", edges)
-    result.vertex_attributes[name] = random_of_islands(len(mesh.vertices), edges.reshape(-1, 2))[:, None]
+    result.vertex_attributes[name] = random_of_islands(len(mesh.vertices), _edges(mesh))[:, None]
+
+
+def _pointiness(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
+    positions, normals = np.empty((2, len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", positions.ravel())
+    mesh.vertices.foreach_get("normal", normals.ravel())
+    result.vertex_attributes[name] = pointiness(positions, normals, _edges(mesh))[:, None]
+
+
+def _edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """(E, 2) vertices."""
+    edges = np.empty((len(mesh.edges), 2), np.int32)
+    mesh.edges.foreach_get("vertices", edges.ravel())
+    return edges
 
 
 _OF_MESH: dict[str, Callable[[bpy.types.Mesh, MeshArrays, str, str, MeshAttributes], None]] = {
@@ -176,5 +188,6 @@ _OF_MESH: dict[str, Callable[[bpy.types.Mesh, MeshArrays, str, str, MeshAttribut
     "generated": _generated,
     "color": _color,
     "island": _island,
+    "pointiness": _pointiness,
     "attribute": _named,
 }

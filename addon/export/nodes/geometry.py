@@ -66,8 +66,7 @@ def _geometry(node: Node) -> Value:
         return _radial_tangent(node, "Z")
     if node.output == "Random Per Island":
         return mesh_attribute(node, "island:")[0]
-    node.warn(f"{node.output} is not supported, it is 0.5")
-    return node.program.number(0.5)
+    return mesh_attribute(node, "pointiness:", 0.0)[0]
 
 
 def _radial_tangent(node: Node, axis: str) -> Value:

@@ -215,6 +215,8 @@ def _cases() -> Iterator[tuple[str, Make]]:
     for output in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing"):
         yield f"geometry {output}", node("NewGeometry", output)
     yield "geometry island", node("NewGeometry", "Random Per Island")
+    yield "pointiness", _pointiness
+    yield "pointiness of faces apart", _pointiness_apart
     for output in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
         if output != "Alpha" or bpy.app.version >= (3, 5):
             yield f"object {output}", node("ObjectInfo", output)
@@ -259,6 +261,21 @@ def _cases() -> Iterator[tuple[str, Make]]:
     yield "weak bump", node("Bump", "Normal", ("Height", WAVES), Distance=0.3, Strength=0.4, invert=True)
     yield "bump of an image", _bump_of_image
     yield "bumped twice", node("Bump", "Normal", ("Height", GENERATED), ("Normal", BUMP), Distance=0.5)
+
+
+def _pointiness(tree: Any, ball: Any) -> Any:
+    """Of a ball with spikes and hollows, ten times what it is from 0.5."""
+    for index, vertex in enumerate(ball.data.vertices):
+        vertex.co *= 1 + 0.2 * math.sin(7 * index)
+    output = node("Math", "Value", (0, node("NewGeometry", "Pointiness")), operation="MULTIPLY_ADD")(tree, ball)
+    output.node.inputs[1].default_value, output.node.inputs[2].default_value = 10, -5
+    return output
+
+
+def _pointiness_apart(tree: Any, ball: Any) -> Any:
+    """Where the faces' vertices are not the same, only at one place."""
+    ball.modifiers.new("apart", "EDGE_SPLIT").split_angle = 0
+    return _pointiness(tree, ball)
 
 
 def _bump_of_image(tree: Any, ball: Any) -> Any:
