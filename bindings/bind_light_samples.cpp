@@ -49,9 +49,9 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
             samplers[i] = {hash(static_cast<std::uint32_t>(first + i), seed), 0};
         vertices.sampler = sampler_lanes(samplers);
         SharedLamps shared;
-        Registers registers;
+        ProgramMemory memory;
         const VertexBatch batch(vertices, std::min(batch_size, count - first));
-        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared, registers)) {
+        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared, memory)) {
             wi.push_back(sample.wi);
             radiance.push_back(sample.radiance);
         }

@@ -5,6 +5,7 @@
 
 #include "core/bsdf/surface.h"
 #include "core/scene/scene.h"
+#include "core/shaders/surface_places.h"
 
 namespace pivot {
 
@@ -19,12 +20,6 @@ struct ArrivalOf {
 };
 
 using Arrival = ArrivalOf<float>;
-
-/// What programs work in, kept from batch to batch.
-struct ProgramMemory {
-    std::vector<Batch> registers;
-    std::vector<Place> places;
-};
 
 /// A batch of arrivals: the surfaces, and what they are made of there. Lanes past the last arrival repeat it.
 struct ArrivalBatch {

@@ -130,6 +130,55 @@ void pick_some(const LightTree& tree, std::size_t first, std::size_t count, cons
     }
 }
 
+/// The ray that a light sample of a triangle stands for, where that is met, a bounce on.
+Arrival arrival_at(const Scene& scene, const SceneTriangle& triangle, const AreaLight& light, const Vec3f& origin,
+                   const Vec3f& wi) {
+    const float distance_m = dot(light.center - origin, light.normal) / dot(wi, light.normal);
+    const Vec2f place = area_coordinates(light, origin + distance_m * wi);
+    Arrival arrival{.direction = wi, .hit = {}, .material = 0, .footprint_m = 0.0f, .ray_kind = diffuse_ray};
+    arrival.hit.instance = triangle.instance;
+    arrival.hit.triangle = triangle.triangle;
+    arrival.hit.barycentric = barycentric_in_triangle(place);
+    arrival.hit.distance_m = distance_m;
+    arrival.material = scene.material_of(arrival.hit);
+    return arrival;
+}
+
+/// Makes what samples bring of lights that vary what these shine where they are sampled. They were taken for grey.
+void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch& vertices, const LightPicks& picks,
+                  LightSampleOf<Batch>& samples, ProgramMemory& memory) {
+    std::array<Arrival, batch_size> arrivals;
+    std::array<const Arrival*, batch_size> in_turn;
+    std::array<std::size_t, batch_size> lane_of;
+    std::size_t count = 0;
+    const Lanes brought = store(max_component(abs(samples.radiance)));
+    const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
+    for (std::size_t i = 0; i < vertices.count(); ++i) {
+        const auto triangle = brought[i] > 0.0f ? scene.varying_triangle(picks.light[i]) : std::nullopt;
+        if (!triangle) continue;
+        const auto& light = std::get<AreaLight>(scene.light(picks.light[i]));
+        arrivals[count] = arrival_at(scene, *triangle, light, vertices.lane(i).point.position, each[i].wi);
+        in_turn[count] = &arrivals[count];
+        lane_of[count++] = i;
+    }
+    if (count == 0) return;
+    Lanes r, g, b;
+    r.fill(1.0f), g.fill(1.0f), b.fill(1.0f);
+    for (std::size_t first = 0; first < count;) {
+        const std::span<const Arrival* const> left = std::span(in_turn).subspan(first, count - first);
+        const std::size_t together = batch_count(scene, left);
+        const Vec3b emission = make_arrivals(scene, left.first(together), plan.bounce + 1, memory).material.emission;
+        const Lanes red = store(emission.x), green = store(emission.y), blue = store(emission.z);
+        for (std::size_t k = 0; k < together; ++k) {
+            const std::size_t lane = lane_of[first + k];
+            const float grey = std::get<AreaLight>(scene.light(picks.light[lane])).radiance.x;
+            r[lane] = red[k] / grey, g[lane] = green[k] / grey, b[lane] = blue[k] / grey;
+        }
+        first += together;
+    }
+    samples.radiance = samples.radiance * Vec3b(load(r), load(g), load(b));
+}
+
 /// A sample of the world's light by each vertex.
 LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
                                   const BouncePlan& plan, Registers& registers) {
@@ -150,7 +199,7 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
 /// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                     SharedLamps& shared_lamps, Registers& registers, const Visit& visit) {
+                     SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
     const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples) {
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
         visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
@@ -159,7 +208,7 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
                                     .far_m = select(adds, samples.reach_m, Batch(0.0f))});
     };
     if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, registers));
+        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers));
     const std::size_t rounds = plan.lamp_samples + plan.triangle_samples;
     if (rounds == 0) return;
     std::array<LightPicks, max_light_samples> picks;
@@ -172,8 +221,10 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
         std::span(picks).subspan(plan.lamp_samples, plan.triangle_samples));
     for (std::size_t k = 0; k < rounds; ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
-        visit_with_rays(
-            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps));
+        LightSampleOf<Batch> samples =
+            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps);
+        if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
+        visit_with_rays(samples);
     }
 }
 
@@ -197,9 +248,9 @@ float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex&
 }
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared_lamps, Registers& registers) {
+                   SharedLamps& shared_lamps, ProgramMemory& memory) {
     Vec3b radiance(Batch(0.0f));
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps, registers,
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         // Where no ray is, there is nothing to add.
                         radiance += select(rays.far_m > Batch(0.0f), samples.radiance * scene.visibility(rays),
@@ -210,9 +261,9 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
 
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
                                           const VertexBatch& vertices, SharedLamps& shared_lamps,
-                                          Registers& registers) {
+                                          ProgramMemory& memory) {
     std::vector<LightSample> result;
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps, registers,
+    for_each_sample(scene, strategy, plan, vertices, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);

@@ -1,9 +1,9 @@
 // Light samples: a batch of paths' vertices, one light for each lane, and the rays that decide.
 #pragma once
 
+#include "core/integrators/arrival.h"
 #include "core/integrators/light_lanes.h"
 #include "core/integrators/settings.h"
-#include "core/scene/scene.h"
 
 namespace pivot {
 
@@ -38,10 +38,10 @@ class SharedLamps {
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared, Registers& registers);
+                   SharedLamps& shared, ProgramMemory& memory);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, SharedLamps& shared, Registers& registers);
+                                          const VertexBatch& vertices, SharedLamps& shared, ProgramMemory& memory);
 
 }  // namespace pivot

@@ -18,6 +18,7 @@ struct PathOf {
     ArrivalOf<T> arrival;
     Vec3<T> throughput;  ///< up to the surface
     T spread;            ///< how much the footprint grows on the way, m for each m
+    T emission_weight;   ///< of what the surface's program emits, beside light samples
     Word<T> sample;      ///< of the caller's
 };
 
@@ -72,16 +73,16 @@ Rgb lamps_met(const Work& work, std::span<const SharedLamp> lamps, const Vertex&
     return radiance;
 }
 
-/// The emission that a BSDF sample meets on a surface, weighted if its triangle is a light that is sampled.
-Rgb emission_met(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi, float bsdf_pdf_omega,
-                 const RayHit& hit, const Rgb& emission) {
+/// The weight of the emission that a BSDF sample meets on a surface: less than 1 if its triangle is sampled too.
+float emission_weight(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi,
+                      float bsdf_pdf_omega, const RayHit& hit) {
     const auto index = work.scene.light_of(hit);
-    if (!index) return emission;
+    if (!index) return 1.0f;
     const Light& light = work.scene.light(*index);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
-    if (!place) return emission;
-    return emission * bsdf_weight(light, work.settings.light_sampling, vertex, *place,
-                                  expected_samples(work.scene, plan, vertex, *index), bsdf_pdf_omega);
+    if (!place) return 1.0f;
+    return bsdf_weight(light, work.settings.light_sampling, vertex, *place,
+                       expected_samples(work.scene, plan, vertex, *index), bsdf_pdf_omega);
 }
 
 /// The world's light that BSDF samples meet, weighted where it is sampled too.
@@ -198,6 +199,7 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
                                     .ray_kind = ray_kind},
                         .throughput = scattered.throughput,
                         .spread = spread,
+                        .emission_weight = Batch(1.0f),
                         .sample = batch.lanes.sample});
     const BatchMask is_lost = equal(hit.instance, WordBatch(no_instance));
     Vec3b sky(Batch(0.0f));
@@ -222,9 +224,11 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
             arrival.material = scene.material_of(arrival.hit);
             const Shader& shader = scene.shaders()[arrival.material];
             shines_by_program = shader.has_varying_emission();
-            if (!shines_by_program && shader.is_emissive())
-                light += emission_met(work, plan, batch.vertices.lane(i), arrival.direction, pdf_omega[i], arrival.hit,
-                                      shader.constants.emission);
+            if (shader.is_emissive()) {
+                path.emission_weight =
+                    emission_weight(work, plan, batch.vertices.lane(i), arrival.direction, pdf_omega[i], arrival.hit);
+                if (!shines_by_program) light += path.emission_weight * shader.constants.emission;
+            }
         }
         r[i] = light.x, g[i] = light.y, b[i] = light.z;
         // What shines by its program tells how much when its own batch is shaded.
@@ -249,12 +253,12 @@ std::size_t trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t
     if (bounce == 0)
         see_first_hits(work, batch);
     else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
-        add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission);
+        add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
     if (bounce > work.settings.max_bounces) return count;
     SharedLamps shared;
     add_light(work, bounce, batch,
-              batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
-                                                    shared, work.memory.registers));
+              batch.lanes.throughput *
+                  direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shared, work.memory));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     Lanes wanted{};
     for (std::size_t i = 0; i < count; ++i) {
@@ -283,6 +287,7 @@ void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& path
                                          .ray_kind = camera_ray},
                              .throughput = Rgb(1.0f),
                              .spread = spread,
+                             .emission_weight = 1.0f,
                              .sample = static_cast<std::uint32_t>(i)});
         } else if (work.settings.transparent_film) {
             sample.alpha = 0.0f;

@@ -149,6 +149,13 @@ Vec2<T> place_in_triangle(const Vec2<T>& u) {
     return {T(2) * along - T(1), (T(2) * u.y - T(1)) * along};
 }
 
+/// Weights of a triangle's second and third corner at coordinates on it.
+template <class T>
+Vec2<T> barycentric_in_triangle(const Vec2<T>& place) {
+    const T across = T(0.25f) + T(0.25f) * place.x;
+    return {across - T(0.5f) * place.y, across + T(0.5f) * place.y};
+}
+
 /// A place on an area light for u in [0, 1)^2, uniform by area.
 Vec3f place_on(const AreaLight& light, const Vec2f& u);
 

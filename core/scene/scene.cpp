@@ -63,8 +63,6 @@ void require_valid(const std::string& name, const Material& material) {
         throw std::invalid_argument("material '" + name + "': dielectric_ior must be at least 1");
 }
 
-constexpr std::uint32_t no_light = ~0u;
-
 /// The value an id stands for, or an error that names what was asked for.
 template <class Items>
 auto& at(Items& items, std::uint32_t id, const char* what) {
@@ -163,7 +161,7 @@ void Scene::set_material(std::uint32_t id, Shader shader) {
     require_valid(std::to_string(id), shader.constants);
     Shader& edited = at(shaders_, id, "material");
     const bool changes_lights = edited.constants.emission != shader.constants.emission ||
-                                edited.has_varying_emission() != shader.has_varying_emission();
+                                edited.has_varying_emission() || shader.has_varying_emission();
     edited = std::move(shader);
     if (!changes_lights) return;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -282,22 +280,33 @@ void Scene::commit_triangle_lights() {
     }
     if (!changes) return;
     std::vector<Light> lights;
+    std::vector<SceneTriangle> triangles;
+    has_varying_lights_ = false;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         InstanceLights& own = instance_lights_[i];
         const std::size_t first = lights.size();
-        if (own.is_stale) {
-            const bool shines = own.shines;
-            own = shines ? append_triangle_lights(*instances_[i], lights) : InstanceLights{};
-            own.shines = shines;
+        if (own.is_stale && own.shines) {
+            const Instance& instance = *instances_[i];
+            TriangleLights made = make_triangle_lights(*meshes_[instance.mesh], instance, shaders_, camera_facts_);
+            lights.insert(lights.end(), made.lights.begin(), made.lights.end());
+            for (const std::uint32_t triangle : made.triangle_of_light)
+                triangles.push_back({static_cast<std::uint32_t>(i), triangle});
+            own.any_varies = made.any_varies;
+            own.light_of_triangle = std::move(made.light_of_triangle);
+        } else if (own.is_stale) {
+            own = InstanceLights{};
         } else {
-            const auto begin = triangle_lights_.begin() + static_cast<std::ptrdiff_t>(own.first);
-            lights.insert(lights.end(), begin, begin + static_cast<std::ptrdiff_t>(own.count));
+            const auto range = [&](const auto& of_all) { return std::span(of_all).subspan(own.first, own.count); };
+            lights.insert(lights.end(), range(triangle_lights_).begin(), range(triangle_lights_).end());
+            triangles.insert(triangles.end(), range(scene_triangles_).begin(), range(scene_triangles_).end());
         }
         own.is_stale = false;
         own.first = first;
         own.count = lights.size() - first;
+        has_varying_lights_ = has_varying_lights_ || own.any_varies;
     }
     triangle_lights_ = std::move(lights);
+    scene_triangles_ = std::move(triangles);
     triangle_tree_ = LightTree(triangle_lights_);
 }
 
@@ -308,38 +317,22 @@ bool Scene::shines(std::size_t instance) const {
 }
 
 std::uint32_t Scene::material_of(const RayHit& hit) const {
-    return material_of(*instances_[hit.instance], hit.triangle);
-}
-
-std::uint32_t Scene::material_of(const Instance& instance, std::uint32_t triangle) const {
-    const Mesh& mesh = *meshes_[instance.mesh];
-    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[triangle];
-    return instance.materials[std::min(slot, instance.materials.size() - 1)];
-}
-
-Scene::InstanceLights Scene::append_triangle_lights(const Instance& instance, std::vector<Light>& lights) const {
-    const Mesh& mesh = *meshes_[instance.mesh];
-    const std::size_t first = lights.size();
-    InstanceLights own;
-    own.light_of_triangle.assign(mesh.triangles.size(), no_light);
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Shader& shader = shaders_[material_of(instance, i)];
-        // What varies over a triangle is found by BSDF samples alone.
-        if (shader.has_varying_emission() || !shader.constants.is_emissive()) continue;
-        const Triangle& t = mesh.triangles[i];
-        const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
-        const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, shader.constants.emission);
-        if (!light) continue;
-        own.light_of_triangle[i] = static_cast<std::uint32_t>(lights.size() - first);
-        lights.push_back(*light);
-    }
-    return own;
+    return pivot::material_of(*instances_[hit.instance], mesh_of(hit), hit.triangle);
 }
 
 std::optional<std::size_t> Scene::light_of(const RayHit& hit) const {
     const InstanceLights& own = instance_lights_[hit.instance];
-    if (own.light_of_triangle.empty() || own.light_of_triangle[hit.triangle] == no_light) return std::nullopt;
+    if (own.light_of_triangle.empty() || own.light_of_triangle[hit.triangle] == TriangleLights::no_light)
+        return std::nullopt;
     return lamps_.size() + own.first + own.light_of_triangle[hit.triangle];
+}
+
+std::optional<SceneTriangle> Scene::varying_triangle(std::size_t place) const {
+    if (!has_varying_lights_ || place < lamps_.size()) return std::nullopt;
+    const SceneTriangle found = scene_triangles_[place - lamps_.size()];
+    const Instance& instance = *instances_[found.instance];
+    const Shader& shader = shaders_[pivot::material_of(instance, *meshes_[instance.mesh], found.triangle)];
+    return shader.has_varying_emission() ? std::optional(found) : std::nullopt;
 }
 
 LightReach Scene::light_reach() const {
@@ -376,18 +369,7 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
 }
 
 HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
-    const Instance& instance = *instances_[hit.instance];
-    const Mesh& mesh = *meshes_[instance.mesh];
-    const Triangle& t = mesh.triangles[hit.triangle];
-    const std::array<Vec3f, 3> normals = mesh.normals(hit.triangle);
-    return {.corner_a = mesh.positions[t.x],
-            .corner_b = mesh.positions[t.y],
-            .corner_c = mesh.positions[t.z],
-            .normal_a = normals[0],
-            .normal_b = normals[1],
-            .normal_c = normals[2],
-            .world_from_object = instance.world_from_object,
-            .normal_matrix = instance.normal_matrix};
+    return triangle_of(*instances_[hit.instance], mesh_of(hit), hit.triangle);
 }
 
 }  // namespace pivot

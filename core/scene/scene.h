@@ -10,19 +10,10 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
+#include "core/scene/triangle_lights.h"
 #include "core/shaders/world.h"
 
 namespace pivot {
-
-struct Instance {
-    std::string name;
-    std::uint32_t mesh;
-    Transform world_from_object;
-    std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
-    std::uint32_t visibility;
-    ObjectFacts facts{};
-    Mat3<float> normal_matrix{1.0f};  ///< of world_from_object; the scene sets it
-};
 
 struct NamedLight {
     std::string name;
@@ -75,6 +66,9 @@ class Scene {
     }
     /// The place of the light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
+    bool has_varying_lights() const { return has_varying_lights_; }
+    /// The triangle that a light is whose emission is a program's; nothing of other lights.
+    std::optional<SceneTriangle> varying_triangle(std::size_t place) const;
     /// Of the lamps, and of the triangles.
     const LightTree& lamp_tree() const { return lamp_tree_; }
     const LightTree& triangle_tree() const { return triangle_tree_; }
@@ -115,6 +109,7 @@ class Scene {
     struct InstanceLights {
         bool is_stale = true;  ///< by an edit since the last commit
         bool shines = false;   ///< with triangles that are sampled, or only found
+        bool any_varies = false;
         std::size_t first = 0, count = 0;
         std::vector<std::uint32_t> light_of_triangle;  ///< counted from `first`; empty: none shines
     };
@@ -126,8 +121,6 @@ class Scene {
     void commit_lamps();
     void commit_triangle_lights();
     bool shines(std::size_t instance) const;
-    InstanceLights append_triangle_lights(const Instance& instance, std::vector<Light>& lights) const;
-    std::uint32_t material_of(const Instance& instance, std::uint32_t triangle) const;
     LightReach light_reach() const;
 
     std::vector<std::unique_ptr<const Mesh>> meshes_;
@@ -137,7 +130,8 @@ class Scene {
     std::vector<NamedLight> added_lights_;
     bool are_lamps_stale_ = false;
     std::vector<Light> lamps_, triangle_lights_;
-    bool has_emissive_mesh_ = false;
+    std::vector<SceneTriangle> scene_triangles_;  ///< of each triangle light
+    bool has_emissive_mesh_ = false, has_varying_lights_ = false;
     LightTree lamp_tree_, triangle_tree_;
     std::vector<InstanceLights> instance_lights_;       ///< of each instance
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced

@@ -12,19 +12,34 @@ LIGHT_SAMPLING = ("JOINT", "SPTD", "MIS", "LIGHT", "BSDF")
 EMISSION = (5.0, 4.0, 3.0)
 
 
+def stripes() -> pivot_core.Shader:
+    """Of 0.1 m, some bright and some dark, of the one colour on one side and of the other on the other."""
+    program = pivot_core.Program()
+    x = program.add("position", [])
+    wave = program.add("math_sine", [(program.add("math_multiply", [(x, 0.0), (-1, 30.0)]), 0.0)])
+    bright = program.add("math_greater_than", [(wave, 0.0), (-1, 0.5)])
+    back = program.add("backfacing", [])
+    red = program.add("math_multiply", [(bright, 0.0), (-1, 15.0)])
+    blue = program.add("math_multiply", [(bright, 0.0), (back, 0.0)])
+    return pivot_core.Shader(pivot_core.Material(), program, {"emission": [red, bright, blue]})
+
+
 def scene_with(shape: str, lamp: bool = False) -> pivot_core.Scene:
     """A plastic and a metal ball on a floor, under a panel near or far, or a bulb of a thousand triangles."""
     scene = pivot_core.Scene()
-    plastic = scene.add_material("plastic", pivot_core.Material(diffuse=(0.5,) * 3, alpha=0.3, dielectric_weight=1.0))
+    lobes = [("translucent", {"color": (0.2, 0.3, 0.1)})] if "leaves" in shape else []
+    plastic = scene.add_material(
+        "plastic", pivot_core.Material(diffuse=(0.5,) * 3, alpha=0.3, dielectric_weight=1.0, lobes=lobes)
+    )
     metal = scene.add_material("metal", pivot_core.Material(alpha=0.1, conductor_f0=(0.8,) * 3, conductor_f90=(1,) * 3))
-    glow = scene.add_material("glow", pivot_core.Material(emission=EMISSION))
+    glow = scene.add_material("glow", stripes() if "stripes" in shape else pivot_core.Material(emission=EMISSION))
     scene.add_instances("floor", add_plane(scene, 10), place(), [plastic])
     scene.add_instances("plastic ball", add_sphere(scene), place(0, 0, 0.5, 0.5), [plastic])
     scene.add_instances("metal ball", add_sphere(scene), place(1.2, 0, 0.4, 0.4), [metal])
-    if shape == "bulb":
+    if "bulb" in shape:
         scene.add_instances("bulb", add_sphere(scene, 16), place(-1, -0.5, 1.2, 0.3), [glow])
     else:
-        near = shape == "near panel"
+        near = "near panel" in shape
         panel = add_plane(scene, 2.0 if near else 0.5)
         scene.add_instances("panel", panel, place(0, 0, 1.2 if near else 2.0), [glow])
     if lamp:
@@ -40,7 +55,10 @@ def mean_and_error(scene: pivot_core.Scene, **settings: object) -> tuple[float, 
 
 
 @pytest.mark.parametrize("lamp", [False, True], ids=["alone", "and a lamp"])
-@pytest.mark.parametrize("shape", ["panel", "near panel", "bulb"])
+@pytest.mark.parametrize(
+    "shape",
+    ["panel", "near panel", "bulb", "panel of stripes", "near panel of stripes", "bulb of stripes over leaves"],
+)
 def test_every_light_sampling_gives_one_picture(shape: str, lamp: bool) -> None:
     scene = scene_with(shape, lamp)
     samples = {m: 256 if m == "BSDF" else 32 for m in LIGHT_SAMPLING}
@@ -50,6 +68,26 @@ def test_every_light_sampling_gives_one_picture(shape: str, lamp: bool) -> None:
     mean, error = results.pop("MIS")
     for mode, (other, other_error) in results.items():
         assert abs(other - mean) < 4 * np.hypot(error, other_error) + 1e-3 * mean, f"{mode}: {other}, MIS: {mean}"
+
+
+def test_light_that_varies_over_a_mesh_is_sampled() -> None:
+    """The noise that it makes of the floor, beside BSDF samples alone."""
+    scene = scene_with("bulb of stripes")
+    noise = {}
+    for mode in ("JOINT", "BSDF"):
+        pictures = [render(scene, samples=16, seed=seed, light_sampling=mode, max_bounces=0) for seed in range(8)]
+        noise[mode] = float(np.var(pictures, axis=0)[:6, :, :3].mean())
+    assert noise["JOINT"] < noise["BSDF"] / 10
+
+
+def test_an_edit_of_light_that_varies_is_seen() -> None:
+    """To other places of a mesh, and to none."""
+    scene = scene_with("panel of stripes")
+    bright = render(scene, samples=64)[..., :3].mean()
+    scene.set_material(2, pivot_core.Material())
+    assert render(scene, samples=4)[..., :3].mean() == 0
+    scene.set_material(2, stripes())
+    np.testing.assert_allclose(render(scene, samples=64)[..., :3].mean(), bright, rtol=0.05)
 
 
 def floor_under(light: str, rings: int = 48) -> pivot_core.Scene:

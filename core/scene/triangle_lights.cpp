@@ -1,0 +1,69 @@
+#include "core/scene/triangle_lights.h"
+
+#include <numeric>
+
+#include "core/shaders/surface_places.h"
+#include "core/simd/pack.h"
+
+namespace pivot {
+namespace {
+
+/// How bright a triangle is whose emission is a program's, nearly: at a place in each lane, of both sides by turns.
+float mean_brightness(const Shader& shader, const Mesh& mesh, const Instance& instance, std::uint32_t triangle,
+                      const CameraFacts& camera, ProgramMemory& memory) {
+    const HitTriangleOf<Batch> corners = broadcast<HitTriangleOf>(triangle_of(instance, mesh, triangle));
+    const Batch lane = gather([](std::size_t i) { return static_cast<float>(i) + 0.5f; });
+    constexpr float golden = 0.618034f;  // its multiples spread evenly over [0, 1)
+    const Vec2b u(lane / Batch(batch_size), lane * Batch(golden) - floor(lane * Batch(golden)));
+    const Vec2b barycentric = barycentric_in_triangle(place_in_triangle(u));
+    const auto world = [&](const Vec3b& edge) { return corners.world_from_object.vector(edge); };
+    const Vec3b across = cross(world(corners.corner_b - corners.corner_a), world(corners.corner_c - corners.corner_a));
+    const Batch area2_m2 = max(length(across), tiny<Batch>);
+    const Vec3b wo = across / area2_m2 * gather([](std::size_t i) { return i % 2 == 0 ? 1.0f : -1.0f; });
+    const SurfacePointOf<Batch> point = surface_point(corners, barycentric, wo);
+    PlaceLanes lanes{.meshes = {},
+                     .objects = {},
+                     .triangles = {},
+                     .corners = corners,
+                     .wo = wo,
+                     .front = point.front,
+                     .ray_length_m = Batch(0.0f),
+                     .ray_kind = WordBatch(diffuse_ray),
+                     .bounce = WordBatch(1),
+                     .camera = &camera,
+                     .footprint_m = sqrt(area2_m2 * Batch(0.5f / batch_size))};
+    lanes.meshes.fill(&mesh);
+    lanes.objects.fill(&instance.facts);
+    lanes.triangles.fill(triangle);
+    run_on_surfaces(shader.program, lanes, point, barycentric, memory);
+    const Lanes brightness = store(mean_component(abs(material_at(shader, memory.registers).emission)));
+    return std::accumulate(brightness.begin(), brightness.end(), 0.0f) / batch_size;
+}
+
+}  // namespace
+
+TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, std::span<const Shader> shaders,
+                                    const CameraFacts& camera) {
+    TriangleLights made;
+    made.light_of_triangle.assign(mesh.triangles.size(), TriangleLights::no_light);
+    ProgramMemory memory;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Shader& shader = shaders[material_of(instance, mesh, i)];
+        const bool varies = shader.has_varying_emission();
+        if (!varies && !shader.constants.is_emissive()) continue;
+        const Rgb radiance =
+            varies ? Rgb(mean_brightness(shader, mesh, instance, i, camera, memory)) : shader.constants.emission;
+        if (radiance == Rgb(0.0f)) continue;
+        const Triangle& t = mesh.triangles[i];
+        const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
+        const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, radiance);
+        if (!light) continue;
+        made.light_of_triangle[i] = static_cast<std::uint32_t>(made.lights.size());
+        made.lights.push_back(*light);
+        made.triangle_of_light.push_back(i);
+        made.any_varies = made.any_varies || varies;
+    }
+    return made;
+}
+
+}  // namespace pivot
