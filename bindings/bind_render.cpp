@@ -19,10 +19,12 @@ void require(bool ok, const char* message) {
 RenderSettings make_settings(const string& integrator, int samples, std::uint32_t seed, int max_bounces,
                              const string& light_sampling, float error_budget_percent, const string& analytic_method,
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
-                             float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect) {
+                             float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
+                             float filter_glossy) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(clamp_indirect >= 0.0f, "clamp_indirect must not be negative");
+    require(filter_glossy >= 0.0f, "filter_glossy must not be negative");
     require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
     require(time_limit_s >= 0.0f, "time_limit_s must not be negative");
     require(threads >= 0, "threads must not be negative");
@@ -36,6 +38,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .seed = seed,
         .max_bounces = static_cast<std::uint32_t>(max_bounces),
         .clamp_indirect = clamp_indirect,
+        .filter_glossy = filter_glossy,
         .error_budget_percent = error_budget_percent,
         .analytic_method = from_name<AnalyticMethod>("analytic_method", analytic_method,
                                                      {{"AUTO", AnalyticMethod::automatic},
@@ -68,7 +71,8 @@ void register_render(py::module_& module) {
              py::arg("error_budget_percent") = 2.0f, py::arg("analytic_method") = "AUTO",
              py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
-             py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f);
+             py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
+             py::arg("filter_glossy") = 0.0f);
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended. "

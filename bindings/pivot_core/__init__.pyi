@@ -454,6 +454,7 @@ class RenderSettings:
         transparent_film: bool = False,
         adaptive: bool = False,
         clamp_indirect: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        filter_glossy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
 
 class Session:

@@ -89,6 +89,13 @@ using Base = BaseOf<float>;
 template <class T>
 BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local);
 
+/// The base, its GGX alpha at least so much and all else as it was: the energy stays that of the sharper, as in Cycles.
+template <class T>
+BaseOf<T> blurred(BaseOf<T> base, T least_alpha) {
+    base.alpha = max(base.alpha, least_alpha);
+    return base;
+}
+
 /// Albedo of the GGX lobe towards wo when all light around is equal: what it reflects of a white furnace.
 template <class T>
 Vec3<T> glossy_albedo(const BaseOf<T>& base);

@@ -37,6 +37,8 @@ concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters,
     /// (wo): the base that reflects what this lobe sends to wo, for the analytic integrator; of one that transmits, in
     /// a frame turned over.
     { lobe.closed_form(w) } -> std::same_as<BaseOf<T>>;
+    /// (least alpha): the lobe, its GGX alpha at least that and all else as it was, even how much it reflects.
+    { lobe.blurred(u_lobe) } -> std::same_as<L>;
 };
 
 namespace detail {

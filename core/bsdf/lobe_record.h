@@ -33,6 +33,14 @@ struct LobeOf {
         static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) <= sizeof(numbers));
         std::memcpy(numbers.data(), &value, sizeof(Numbers));
     }
+    /// The same, in the lanes of a mask.
+    template <class Numbers>
+    void write(const Numbers& value, const Mask<T>& where) {
+        LobeOf written;
+        written.write(value);
+        for (std::size_t i = 0; i < sizeof(Numbers) / sizeof(T); ++i)
+            numbers[i] = select(where, written.numbers[i], numbers[i]);
+    }
 };
 
 /// One of a lobe's parameters, as a material has them: `count` numbers between low and high, 3 of a colour.

@@ -18,10 +18,7 @@ T see_lobe(const LobeOf<T>& material, const Vec3<T>& wo_local, LobeOf<T>& seen) 
         const Mask<T> is_kind = material.kind == kind;
         if (!any(is_kind)) return;
         const L lobe = L::seen(material.template read<typename L::Parameters>(), wo_local);
-        LobeOf<T> record;
-        record.write(lobe);
-        for (std::size_t i = 0; i < record.numbers.size(); ++i)
-            seen.numbers[i] = select(is_kind, record.numbers[i], seen.numbers[i]);
+        seen.write(lobe, is_kind);
         albedo = select(is_kind, mean_component(lobe.albedo(wo_local)), albedo);
     });
     return albedo;

@@ -39,6 +39,16 @@ void for_each_lobe(const SurfaceOf<T>& surface, const Visit& visit) {
 template <class T>
 SurfaceOf<T> make_surface(const MaterialOf<T>& material, const Vec3<T>& wo_local);
 
+/// The surface, the GGX alpha of all its lobes at least so much; sample() chooses among them as before.
+template <class T>
+SurfaceOf<T> blurred(const SurfaceOf<T>& surface, T least_alpha) {
+    SurfaceOf<T> result{{blurred<T>(static_cast<const BaseOf<T>&>(surface), least_alpha)}, surface.lobes};
+    for (LobeOf<T>& record : result.lobes)
+        visit_lobe(record,
+                   [&](const auto& lobe, const Mask<T>& is_kind) { record.write(lobe.blurred(least_alpha), is_kind); });
+    return result;
+}
+
 /// BSDF times |cos|, 1/sr.
 template <class T>
 Vec3<T> eval(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {

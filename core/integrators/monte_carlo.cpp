@@ -47,6 +47,7 @@ struct Work {
     std::span<const Sampler> samplers;
     std::span<Sample> samples;
     ProgramMemory& memory;
+    std::span<float> min_pdf_omega;  ///< of each path's BSDF samples so far; empty where nothing is blurred
 };
 
 /// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
@@ -114,6 +115,13 @@ Batch spread_of_sample(const RenderSettings& settings, const Batch& pdf_omega) {
     return Batch(part_of_pixel(settings)) * inverse_sqrt(max(Batch(pi<float>) * pdf_omega, Batch(1e-3f)));
 }
 
+/// The least GGX alpha of what paths meet: the less likely their BSDF samples were, the blurrier. [Cycles 4.5
+/// integrator/surface_shader.h:180-202]
+Batch least_alpha(const Work& work, const std::array<const Path*, batch_size>& lanes) {
+    const Batch pdf = gather([&](std::size_t i) { return work.min_pdf_omega[lanes[i]->sample]; });
+    return Batch(0.5f) * safe_sqrt(Batch(1.0f) - pdf / Batch(work.settings.filter_glossy));
+}
+
 PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Path> paths) {
     std::array<const Path*, batch_size> lanes;
     std::array<const Arrival*, batch_size> arrivals;
@@ -126,8 +134,10 @@ PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Pat
     const std::size_t count = batch_count(work.scene, std::span(arrivals).first(std::min(batch_size, paths.size())));
     const ArrivalBatch arrived = make_arrivals(work.scene, std::span(arrivals).first(count), bounce, work.memory);
     for (std::size_t i = count; i < batch_size; ++i) lanes[i] = lanes[count - 1], samplers[i] = samplers[count - 1];
-    return {paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
-            VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
+    PathBatch batch{paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
+                    VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
+    if (!work.min_pdf_omega.empty()) batch.vertices.surface = blurred(batch.vertices.surface, least_alpha(work, lanes));
+    return batch;
 }
 
 /// What the passes tell of the first hits, and their own light.
@@ -213,6 +223,10 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         if (!goes_on[i]) continue;
         Path path = paths[i];
+        if (!work.min_pdf_omega.empty()) {
+            float& min_pdf_omega = work.min_pdf_omega[path.sample];
+            min_pdf_omega = std::min(min_pdf_omega, pdf_omega[i]);
+        }
         Arrival& arrival = path.arrival;
         const bool is_met = arrival.hit.instance != no_instance;
         Rgb light(0.0f);
@@ -303,7 +317,9 @@ void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& path
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
     ProgramMemory memory;
-    const Work work{scene, settings, samplers, samples, memory};
+    std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? samples.size() : 0,
+                                     std::numeric_limits<float>::infinity());
+    const Work work{scene, settings, samplers, samples, memory, min_pdf_omega};
     Paths paths, next;
     std::vector<std::uint32_t> material_counts;
     start_paths(work, camera_rays, paths);

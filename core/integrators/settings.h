@@ -28,6 +28,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;      ///< 0: direct light only
     float clamp_indirect = 0.0f;        ///< the mean over colours that light which bounced adds at once; 0: no bound
+    float filter_glossy = 0.0f;         ///< blurs what is met after BSDF samples of a density below this; 0: nothing
     float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;

@@ -1,9 +1,10 @@
-"""clamp_indirect bounds what light that bounced adds at once, and leaves direct light alone."""
+"""Where paths bounce: what clamp_indirect bounds, what filter_glossy blurs, and what no path may lose."""
 
 from __future__ import annotations
 
 import numpy as np
 import pivot_core
+import pytest
 
 from tests.core.scenes import Floats, add_plane, add_sphere, place, render, set_camera
 
@@ -38,6 +39,21 @@ def test_what_bounced_is_bounded_and_direct_light_is_not() -> None:
 def test_a_bound_that_nothing_reaches_changes_nothing() -> None:
     np.testing.assert_array_equal(picture(max_bounces=3, clamp_indirect=1e9), picture(max_bounces=3))
     np.testing.assert_array_equal(picture(max_bounces=0, clamp_indirect=1e-3), picture(max_bounces=0))
+
+
+def test_filtered_reflections_have_less_noise() -> None:
+    def variance(**settings: object) -> float:
+        return float(np.var(picture(max_bounces=3, seed=0, **settings) - picture(max_bounces=3, seed=1, **settings)))
+
+    assert variance(filter_glossy=1.0) < 0.1 * variance()
+
+
+def test_a_filter_that_nothing_reaches_changes_nothing() -> None:
+    """The camera's own hits are never blurred, nor what samples of a density above the bound meet."""
+    np.testing.assert_array_equal(picture(max_bounces=0, filter_glossy=10.0), picture(max_bounces=0))
+    np.testing.assert_array_equal(picture(max_bounces=3, filter_glossy=1e-9), picture(max_bounces=3))
+    with pytest.raises(ValueError, match="filter_glossy must not be negative"):
+        picture(filter_glossy=-1.0)
 
 
 def hidden_lamps(lamps: int, wall: bool) -> pivot_core.Scene:

@@ -30,6 +30,7 @@ struct FurtherBase {
     Vec3<T> albedo(const Vec3<T>&) const { return albedo_base(base); }
     Vec3<T> diffuse() const { return base.diffuse; }
     BaseOf<T> closed_form(const Vec3<T>&) const { return base; }
+    FurtherBase blurred(T least_alpha) const { return {pivot::blurred(base, least_alpha)}; }
 };
 
 }  // namespace pivot

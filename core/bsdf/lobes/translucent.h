@@ -31,6 +31,7 @@ struct Translucent {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = color}, wo_local);
     }
+    Translucent blurred(T) const { return *this; }
 };
 
 }  // namespace pivot
