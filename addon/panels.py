@@ -96,6 +96,7 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
             layout.prop(pivot, "light_sampling")
             layout.prop(pivot, "max_bounces")
             layout.prop(pivot, "clamp_indirect")
+            layout.prop(pivot, "filter_glossy")
             layout.prop(pivot, "seed")
         else:
             layout.prop(pivot, "analytic_method")

@@ -56,6 +56,16 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=0.0,
         soft_max=100.0,
     )
+    filter_glossy: FloatProperty(
+        name="Filter Glossy",
+        description=(
+            "Blurs what is glossy where light reaches it by way of something rougher: caustics get softer, with less "
+            "noise. 0 keeps all sharp"
+        ),
+        default=0.0,
+        min=0.0,
+        soft_max=10.0,
+    )
     light_sampling: EnumProperty(
         name="Light Sampling",
         description="How rays towards the lights are chosen; every choice converges to one picture",

@@ -24,6 +24,7 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "seed": pivot.seed,
         "max_bounces": max_bounces,
         "clamp_indirect": pivot.clamp_indirect,
+        "filter_glossy": pivot.filter_glossy,
         "light_sampling": pivot.light_sampling,
         "error_budget_percent": pivot.error_budget,
         "analytic_method": pivot.analytic_method,

@@ -28,7 +28,7 @@ def _settings() -> Any:
     pivot, render = bpy.context.scene.pivot, bpy.context.scene.render
     pivot.integrator, pivot.light_sampling = "ANALYTIC", "SPTD"
     pivot.samples, pivot.adaptive, pivot.seed, pivot.max_bounces = 7, True, 3, 0
-    pivot.clamp_indirect = 2.5
+    pivot.clamp_indirect, pivot.filter_glossy = 2.5, 1.5
     pivot.error_budget, pivot.time_limit = 0.5, 12
     pivot.analytic_method, pivot.occlusion = "LTC", "BENT_CONE"
     render.threads_mode, render.threads = "FIXED", 3

@@ -84,6 +84,7 @@ class RenderSettings:
     seed: int
     max_bounces: int
     clamp_indirect: float
+    filter_glossy: float
     light_sampling: str
     error_budget_percent: float
     analytic_method: str
