@@ -1,71 +1,106 @@
-"""How near Pivot's render comes to the rate at which bare Embree traces the same rays; prints CPU ns a camera sample.
+"""How near Pivot's render comes to the rate at which bare Embree traces the same rays, with direct light and bounces.
 
 ./run python tests/benchmark/monte_carlo_rays.py [SCENE ...]
 
-Bare: the camera rays of one sample a pixel, in packets, and from each hit a ray towards a place on each light that is
-above its horizon, with no shading but making them. Both in one thread.
+ray_log.cpp, compiled here, keeps every ray that a render of 16 samples and half the width and height asks Embree for.
+Bare Embree then traces these in the same order, single and in full packets, and with no shading between. Both in one
+thread; prints CPU ns a camera sample, the rate of Pivot's render over the faster of the two, and Embree's own share of
+the render: its time for the packets as the render made them, with the lanes that were empty. Wants AVX2.
 """
 
 from __future__ import annotations
 
+import ctypes
+import os
+import subprocess
 import sys
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
+from typing import Any
 
-import monte_carlo_blender as blender
+import bpy
+
+# isort: split
+import indirect
+import indirect_scenes
+import monte_carlo_blender
 import monte_carlo_renderers as renderers
-import monte_carlo_scenes as scenes
-import numpy as np
-from numpy.typing import NDArray
+import monte_carlo_scenes
 
-SAMPLES = (4, 20)
+LIBRARY = Path(__file__).resolve().parents[2] / "build" / "monte_carlo" / "ray_log.so"
+SAMPLES = 16
 REPEATS = 3
 
 
-def camera_rays(scene: scenes.Scene, view_plane: tuple[float, ...]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    left, right, bottom, top = view_plane
-    x = left + (np.arange(scenes.WIDTH) + 0.5) / scenes.WIDTH * (right - left)
-    y = bottom + (np.arange(scenes.HEIGHT) + 0.5) / scenes.HEIGHT * (top - bottom)
-    local = np.stack([*np.meshgrid(x, y), -np.ones((scenes.HEIGHT, scenes.WIDTH))], -1).reshape(-1, 3)
-    direction = local @ scenes.look_at(scene.eye, scene.target)[:3, :3].T
-    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    return np.broadcast_to(scene.eye, direction.shape).astype(np.float32), direction.astype(np.float32)
+def scenes() -> dict[str, tuple[Callable[[], None], dict[str, Any]]]:
+    """What builds each, and Pivot's settings."""
+    direct = {
+        name: (partial(monte_carlo_blender.build, scene), monte_carlo_scenes.DIRECT_LIGHT["pivot"])
+        for name, scene in monte_carlo_scenes.SCENES.items()
+    }
+    return direct | {name: (build, indirect.PIVOT) for name, build in indirect_scenes.SCENES.items()}
 
 
-def least_cpu_s(work: Callable[[], object]) -> float:
-    times = []
+def preload() -> None:
+    """Compiles the log and starts this script anew with it, unless it is there."""
+    if str(LIBRARY) in os.environ.get("LD_PRELOAD", ""):
+        return
+    LIBRARY.parent.mkdir(parents=True, exist_ok=True)
+    source = Path(__file__).with_name("ray_log.cpp")
+    flags = ["-std=c++20", "-O2", "-march=x86-64-v3", "-shared", "-fPIC"]
+    subprocess.run(["g++", *flags, str(source), "-o", str(LIBRARY), "-ldl"], check=True)
+    os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | {"LD_PRELOAD": str(LIBRARY)})
+
+
+def load_log() -> ctypes.CDLL:
+    log = ctypes.CDLL(str(LIBRARY))
+    log.ray_log_count.argtypes, log.ray_log_count.restype = [ctypes.c_bool], ctypes.c_uint64
+    for function in (log.ray_log_as_traced_s, log.ray_log_full_packets_s, log.ray_log_single_s):
+        function.restype = ctypes.c_double
+    return log
+
+
+def measure(log: ctypes.CDLL, name: str, build: Callable[[], None], settings: dict[str, Any]) -> None:
+    def build_half() -> None:
+        build()
+        render = bpy.context.scene.render
+        render.resolution_x //= 2
+        render.resolution_y //= 2
+
+    pivot = renderers.Pivot(build_half, settings | {"threads": 1})
+    pivot.render(1, 0)  # its BVH is built
+    times_s = []
     for _ in range(REPEATS):
         start_s = time.process_time()
-        work()
-        times.append(time.process_time() - start_s)
-    return min(times)
+        image = pivot.render(SAMPLES, 0)
+        times_s.append(time.process_time() - start_s)
+    log.ray_log_start()
+    pivot.render(SAMPLES, 0)
+    log.ray_log_stop()
+    samples = SAMPLES * image.shape[0] * image.shape[1]
+    closest, shadow = log.ray_log_count(False), log.ray_log_count(True)
+    if not closest:
+        raise RuntimeError("no ray was seen: Pivot's build for this CPU traces no packets of eight")
+    pivot_s, single_s, full_s = min(times_s), log.ray_log_single_s(), log.ray_log_full_packets_s()
+    nanoseconds = (f"{1e9 * s / samples:8.0f}" for s in (single_s, full_s, pivot_s))
+    counts = (f"{count / samples:8.2f}" for count in (closest, shadow))
+    rates = (f"{1e-6 * (closest + shadow) / s:8.2f}" for s in (min(single_s, full_s), pivot_s))
+    shares = (f"{100 * s / pivot_s:7.0f}%" for s in (min(single_s, full_s), log.ray_log_as_traced_s()))
+    print(f"{name:20}", *counts, *nanoseconds, *rates, *shares, flush=True)
 
 
-def measure(name: str) -> None:
-    scene = scenes.SCENES[name]
-    pivot = renderers.Pivot(partial(blender.build, scene), scenes.DIRECT_LIGHT["pivot"] | {"threads": 1})
-    origin, direction = camera_rays(scene, pivot.view_plane)
-    distance_m = pivot.scene.intersect(origin, direction)[0]
-    hit = np.isfinite(distance_m)
-    point = origin[hit] + direction[hit] * (0.9999 * distance_m[hit, None])
-    bare_s = least_cpu_s(lambda: pivot.scene.intersect(origin, direction))
-    random = np.random.default_rng(1)
-    rays = len(origin)
-    for light in scene.lights[:8]:  # a first vertex samples no more
-        to_light = light.location + light.size_m[0] * random.uniform(-0.5, 0.5, point.shape) - point
-        above = to_light[:, 2] > 0
-        far_m = np.linalg.norm(to_light[above], axis=1)
-        shadow = [a.astype(np.float32) for a in (point[above], to_light[above] / far_m[:, None], far_m)]
-        bare_s += least_cpu_s(lambda shadow=shadow: pivot.scene.occluded(*shadow))
-        rays += len(far_m)
-    few_s, many_s = (least_cpu_s(lambda count=count: pivot.render(count, 0)) for count in SAMPLES)
-    bare_ns, pivot_ns = (1e9 * s / len(origin) for s in (bare_s, (many_s - few_s) / (SAMPLES[1] - SAMPLES[0])))
-    share = 100 * bare_ns / pivot_ns
-    rate = 1e3 * rays / len(origin) / bare_ns
-    print(f"{name:20} bare {bare_ns:6.0f} ({rate:.1f} Mrays/s)  pivot {pivot_ns:6.0f}  {share:.0f} %", flush=True)
+def main() -> None:
+    preload()
+    log = load_log()
+    print(f"{'':20} {'rays a sample':>17} {'CPU ns a sample':>26} {'Mrays/s':>17} {'of bare':>8} {'Embree':>8}")
+    columns = ("closest", "shadow", "single", "packets", "Pivot", "bare", "Pivot", "rate", "share")
+    print(f"{'scene':20}", *(f"{column:>8}" for column in columns))
+    found = scenes()
+    for name in sys.argv[1:] or found:
+        measure(log, name, *found[name])
 
 
 if __name__ == "__main__":
-    for scene_name in sys.argv[1:] or scenes.SCENES:
-        measure(scene_name)
+    main()
