@@ -18,7 +18,7 @@ from typing import Any
 import monte_carlo_scenes as scenes
 import monte_carlo_table as table
 import numpy as np
-from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot, probe
+from monte_carlo_pictures import Gallery, Renderer, find_blenders, find_mitsuba, has_pivot
 from numpy.typing import NDArray
 
 OUTPUT = Path(__file__).resolve().parents[2] / "build" / "monte_carlo"
@@ -48,10 +48,8 @@ def find_renderers(blenders: list[str], mitsuba: str) -> list[Renderer]:
             label = f"cycles {version} {'tree' if tree else 'no tree'}"
             settings = scenes.DIRECT_LIGHT["cycles"] | {"use_light_tree": tree}
             found.append(Renderer(label, "cycles", python, "monte_carlo_blender.py", settings))
-    version = probe(mitsuba, "import mitsuba; print(mitsuba.__version__)")
-    if version is None:
-        print(f"skipped: Mitsuba, which {mitsuba} cannot import")
-    else:
+    version = find_mitsuba(mitsuba)
+    if version is not None:
         label = f"mitsuba {version}"
         found.append(Renderer(label, "mitsuba", mitsuba, "monte_carlo_mitsuba.py", {}))
     return found

@@ -62,6 +62,14 @@ def find_blenders(pythons: Iterable[str]) -> dict[str, str]:
     return found
 
 
+def find_mitsuba(python: str) -> str | None:
+    """Its version; says where there is none."""
+    version = probe(python, "import mitsuba; print(mitsuba.__version__)")
+    if version is None:
+        print(f"skipped: Mitsuba, which {python} cannot import")
+    return version
+
+
 def has_pivot(python: str) -> bool:
     found = probe(python, "import pivot_core; print(1)") is not None
     if not found:
