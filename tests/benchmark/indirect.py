@@ -1,6 +1,6 @@
-"""Monte Carlo efficiency of Pivot and Cycles where light bounces: four bounces, Blender's own pixel filter in both.
+"""Monte Carlo efficiency of Pivot, Cycles and Mitsuba where light bounces: four bounces, one pixel filter in all.
 
-./run python tests/benchmark/indirect.py [--blender PYTHON ...] [--scenes NAME ...]
+./run python tests/benchmark/indirect.py [--blender PYTHON ...] [--mitsuba PYTHON] [--scenes NAME ...]
 
 480 x 270; nothing clamped, no filter glossy, no adaptive sampling, no denoiser; monte_carlo_pictures.py says what is
 measured, and how. Cycles is the best of each Blender with the light tree on and off, path guiding on and off: all are
@@ -8,6 +8,9 @@ tried with one seed, the best two are measured with all seeds. The ratio without
 how much of an error is a few fireflies. The means of the two references are to agree within 1 %, or the line is
 flagged. References are kept in build/indirect and used again. Writes indirect.csv there, and for each scene a PNG of
 both renderers' pictures and references.
+
+The filter is Blender's own beside Cycles and a box beside Mitsuba, which shows the scenes of indirect_plain.py: its
+`path` in the variant llvm_ad_rgb, with the multijitter sampler.
 """
 
 from __future__ import annotations
@@ -19,16 +22,20 @@ import math
 import sys
 from pathlib import Path
 
+import indirect_plain as plain
 import indirect_scenes as scenes
 import monte_carlo_table as table
 import numpy as np
-from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot
+from monte_carlo_pictures import Gallery, Renderer, find_blenders, find_mitsuba, has_pivot
 
 OUTPUT = Path(__file__).resolve().parents[2] / "build" / "indirect"
 WORKER = "indirect_blender.py"
 BOUNCES = 4
 PIVOT = {"max_bounces": BOUNCES, "filter_width_px": 3.0}  # Blender's Filter Size of 1.5: see addon/settings.py
 CYCLES = {f"{kind}_bounces": BOUNCES for kind in ("max", "diffuse", "glossy")}
+# Mitsuba hides lamps and the world from the camera together.
+PLAIN_PIVOT = {"max_bounces": BOUNCES, "pixel_filter": "BOX", "filter_width_px": 1.0, "transparent_film": True}
+PLAIN_MITSUBA = {"max_bounces": BOUNCES}
 MEASURED = 2  # of Cycles' variants
 MEAN_TOLERANCE = 0.01
 
@@ -44,15 +51,30 @@ def find_renderers(blenders: list[str], guiding: tuple[bool, ...]) -> list[Rende
     return found
 
 
+def find_plain_renderers(blender: str, mitsuba: str) -> list[Renderer]:
+    """Pivot and Mitsuba, where both are there."""
+    version = find_mitsuba(mitsuba)
+    if version is None or not has_pivot(blender):
+        return []
+    return [
+        Renderer("pivot", "pivot", blender, WORKER, PLAIN_PIVOT),
+        Renderer(f"mitsuba {version}", "mitsuba", mitsuba, "indirect_mitsuba.py", PLAIN_MITSUBA),
+    ]
+
+
 @functools.cache
 def scene_key(scene: str) -> str:
-    """One for all: they share their builders."""
-    builders = Path(scenes.__file__).read_bytes() + scenes.DEFAULT_SCENE.read_bytes()
-    return hashlib.sha256(builders + repr((PIVOT, CYCLES)).encode()).hexdigest()[:8]
+    """One for all, and one for all that are plain: they share their builders."""
+    described = Path(scenes.__file__).read_bytes() + scenes.DEFAULT_SCENE.read_bytes()
+    if scene in plain.SCENES:
+        described += Path(plain.__file__).read_bytes() + repr((PLAIN_PIVOT, PLAIN_MITSUBA)).encode()
+    else:
+        described += repr((PIVOT, CYCLES)).encode()
+    return hashlib.sha256(described).hexdigest()[:8]
 
 
 def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: argparse.Namespace) -> list[table.Row]:
-    """A row of Pivot, one of each of Cycles' best, with all seeds. A renderer without pictures is left out."""
+    """A row of each renderer, of Cycles the best, with all seeds. One without pictures is left out."""
 
     def rows(wanted: list[Renderer], seeds: range) -> list[tuple[Renderer, table.Row]]:
         found = []
@@ -64,44 +86,45 @@ def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: 
                 table.print_row(found[-1][1])
         return found
 
-    pivot = rows([renderer for renderer in renderers if renderer.name == "pivot"], range(arguments.seeds))
+    others = rows([renderer for renderer in renderers if renderer.name != "cycles"], range(arguments.seeds))
     tried = rows([renderer for renderer in renderers if renderer.name == "cycles"], range(1))
     tried.sort(key=lambda pair: -pair[1]["efficiency"])
     best = tried[:MEASURED]
     if arguments.seeds > 1:
         best = rows([renderer for renderer, _ in best], range(1, arguments.seeds))
-    return [row for _, row in pivot + best]
+    return [row for _, row in others + best]
 
 
-def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row]) -> None:
-    """Each scene's line, then the geometric mean and the least of the efficiency's ratio."""
+def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row], peer: str) -> None:
+    """Each scene's line, then the geometric mean and the least of the efficiency's ratio over the best of a peer."""
+    name = peer.capitalize()
     print(
-        f"\n{'':16}{'times':>7} {'without':>8}  {'':24}{'CPU s a sample':>15} {'relMSE':>17} {'of references':>17}"
-        f" {'means':>7}\n{'scene':16}{'Cycles':>7} {'worst 1%':>8}  {'best Cycles':24}{'Pivot  Cycles':>15}"
-        f" {'Pivot  Cycles':>17} {'Pivot  Cycles':>17} {'P / C':>7}"
+        f"\n{'':20}{'times':>7} {'without':>8}  {'':24}{'CPU s a sample':>15} {'relMSE':>17} {'of references':>17}"
+        f" {'means':>7}\n{'scene':20}{name:>7} {'worst 1%':>8}  {f'best {name}':24}{f'Pivot {name:>7}':>15}"
+        f" {f'Pivot  {name:>7}':>17} {f'Pivot  {name:>7}':>17} {f'P / {name[0]}':>7}"
     )
     ratios = []
     for scene, found in table.by_scene(rows).items():
-        best = table.best(found, "cycles")
+        best = table.best(found, peer)
         if "pivot" not in found or not best:
             continue
-        ours, theirs = found["pivot"], best["cycles"]
+        ours, theirs = found["pivot"], best[peer]
         ratios.append(ours["efficiency"] / theirs["efficiency"])
         cost = theirs["CPU s"] / ours["CPU s"]
         trimmed = cost * theirs["relMSE without the worst"] / ours["relMSE without the worst"]
         each = [f"{ours[name]:8.2e} {theirs[name]:8.2e}" for name in ("relMSE", "relMSE of the reference")]
         per_sample = f"{ours['CPU s'] / ours['samples']:7.3f} {theirs['CPU s'] / theirs['samples']:7.3f}"
         print(
-            f"{scene:16}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:24}{per_sample} {each[0]} {each[1]} "
-            f"{means(gallery, renderers, scene)}"
+            f"{scene:20}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:24}{per_sample} {each[0]} {each[1]} "
+            f"{means(gallery, renderers, scene, peer)}"
         )
     if ratios:
-        print(f"{'geometric mean':16}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':16}{min(ratios):7.2f}")
+        print(f"{'geometric mean':20}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':20}{min(ratios):7.2f}")
 
 
-def means(gallery: Gallery, renderers: list[Renderer], scene: str) -> str:
-    """Pivot's mean over Cycles', of the references, and its standard error."""
-    owners = [next(renderer for renderer in renderers if renderer.name == name) for name in ("pivot", "cycles")]
+def means(gallery: Gallery, renderers: list[Renderer], scene: str, peer: str) -> str:
+    """Pivot's mean over the peer's, of the references, and its standard error."""
+    owners = [next(renderer for renderer in renderers if renderer.name == name) for name in ("pivot", peer)]
     (ours, our_variance), (theirs, their_variance) = (gallery.reference(owner, scene) for owner in owners)
     ratio = ours.mean() / theirs.mean()
     relative = [v.mean() / v.size / i.mean() ** 2 for i, v in ((ours, our_variance), (theirs, their_variance))]
@@ -109,10 +132,10 @@ def means(gallery: Gallery, renderers: list[Renderer], scene: str) -> str:
     return f"{ratio:7.4f} +- {math.sqrt(sum(relative)):.4f}{flag}"
 
 
-def write_sheet(gallery: Gallery, renderers: list[Renderer], scene: str, rows: list[table.Row]) -> None:
-    """What both made with the samples measured, and their references."""
-    found = table.by_scene(rows)[scene]
-    shown = [found[name] for name in ("pivot",) if name in found] + list(table.best(found, "cycles").values())
+def write_sheet(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row], peer: str) -> None:
+    """What both made of one scene with the samples measured, and their references."""
+    ((scene, found),) = table.by_scene(rows).items()
+    shown = [found[name] for name in ("pivot",) if name in found] + list(table.best(found, peer).values())
     images = {}
     for row in shown:
         renderer = next(renderer for renderer in renderers if renderer.label == row["renderer"])
@@ -128,6 +151,7 @@ def write_sheet(gallery: Gallery, renderers: list[Renderer], scene: str, rows: l
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blender", nargs="+", default=[sys.executable], help="Pythons with bpy; the first has Pivot")
+    parser.add_argument("--mitsuba", default=sys.executable, help="a Python with mitsuba and bpy")
     parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=list(scenes.SCENES))
     parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--seeds", type=int, default=3)
@@ -138,19 +162,25 @@ def main() -> None:
     guiding: tuple[bool, ...] = (False, True)
     if arguments.quick:
         arguments.seeds, arguments.reference_samples, guiding = 1, arguments.reference_samples // 4, (False,)
-    renderers = find_renderers(arguments.blender, guiding)
-    samples = dict.fromkeys(("pivot", "cycles"), arguments.reference_samples)
-    gallery = Gallery(OUTPUT, scene_key, samples)
-    rows = []
-    for scene in arguments.scenes:
-        found = measure(gallery, renderers, scene, arguments)
-        if found:
-            rows += found
-            write_sheet(gallery, renderers, scene, found)
-    if not rows:
+    gallery = Gallery(OUTPUT, scene_key, dict.fromkeys(("pivot", "cycles", "mitsuba"), arguments.reference_samples))
+    rows_of = {}  # each peer's
+    for peer, suffix, renderers in (
+        ("cycles", "", find_renderers(arguments.blender, guiding)),
+        ("mitsuba", "-plain", find_plain_renderers(arguments.blender[0], arguments.mitsuba)),
+    ):
+        rows = []
+        for name in arguments.scenes:
+            found = measure(gallery, renderers, name + suffix, arguments)
+            if found:
+                rows += found
+                write_sheet(gallery, renderers, found, peer)
+        rows_of[peer] = renderers, rows
+    all_rows = [row for _, rows in rows_of.values() for row in rows]
+    if not all_rows:
         return
-    table.write_csv(OUTPUT / "indirect.csv", rows)
-    print_ratios(gallery, renderers, rows)
+    table.write_csv(OUTPUT / "indirect.csv", all_rows)
+    for peer, (renderers, rows) in rows_of.items():
+        print_ratios(gallery, renderers, rows, peer)
 
 
 if __name__ == "__main__":
