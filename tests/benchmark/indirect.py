@@ -97,6 +97,13 @@ def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: 
 
 def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row], peer: str) -> None:
     """Each scene's line, then the geometric mean and the least of the efficiency's ratio over the best of a peer."""
+    compared = {}
+    for scene, found in table.by_scene(rows).items():
+        best = table.best(found, peer)
+        if "pivot" in found and best:
+            compared[scene] = found["pivot"], best[peer]
+    if not compared:
+        return
     name = peer.capitalize()
     print(
         f"\n{'':20}{'times':>7} {'without':>8}  {'':24}{'CPU s a sample':>15} {'relMSE':>17} {'of references':>17}"
@@ -104,11 +111,7 @@ def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.R
         f" {f'Pivot  {name:>7}':>17} {f'Pivot  {name:>7}':>17} {f'P / {name[0]}':>7}"
     )
     ratios = []
-    for scene, found in table.by_scene(rows).items():
-        best = table.best(found, peer)
-        if "pivot" not in found or not best:
-            continue
-        ours, theirs = found["pivot"], best[peer]
+    for scene, (ours, theirs) in compared.items():
         ratios.append(ours["efficiency"] / theirs["efficiency"])
         cost = theirs["CPU s"] / ours["CPU s"]
         trimmed = cost * theirs["relMSE without the worst"] / ours["relMSE without the worst"]
@@ -118,8 +121,7 @@ def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.R
             f"{scene:20}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:24}{per_sample} {each[0]} {each[1]} "
             f"{means(gallery, renderers, scene, peer)}"
         )
-    if ratios:
-        print(f"{'geometric mean':20}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':20}{min(ratios):7.2f}")
+    print(f"{'geometric mean':20}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':20}{min(ratios):7.2f}")
 
 
 def means(gallery: Gallery, renderers: list[Renderer], scene: str, peer: str) -> str:
