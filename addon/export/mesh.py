@@ -23,7 +23,7 @@ class MeshArrays:
     positions: NDArray[np.float32]  # (V, 3)
     corner_vertices: NDArray[np.int32]  # (C,)
     triangle_corners: NDArray[np.int32]  # (T, 3)
-    corner_normals: NDArray[np.float32] | None  # (C, 3), unit
+    corner_normals: NDArray[np.float32] | None  # (C, 3), unit; 0: the triangle's own
     vertex_normals: NDArray[np.float32] | None  # (V, 3), unit, where no corner has its own; without both: flat
     triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
 
@@ -47,14 +47,15 @@ def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays:
     """The triangles of an evaluated mesh that has polygons. The arrays are copies."""
     if not _LAZY:
         mesh.calc_loop_triangles()
-    domain = _normals_domain(mesh)
+    corner_vertices, triangle_corners = _corner_vertices(mesh), _triangle_corners(mesh)
     slots = _polygon_slots(mesh)
+    at_corners, at_vertices = _normals(mesh, corner_vertices, triangle_corners)
     return MeshArrays(
         positions=_positions(mesh),
-        corner_vertices=_corner_vertices(mesh),
-        triangle_corners=_triangle_corners(mesh),
-        corner_normals=corner_normals(mesh) if domain == "CORNER" else None,
-        vertex_normals=_read(mesh.vertex_normals, "vector", np.float32, 3) if domain == "POINT" else None,
+        corner_vertices=corner_vertices,
+        triangle_corners=triangle_corners,
+        corner_normals=at_corners,
+        vertex_normals=at_vertices,
         triangle_slots=None if slots is None else slots[_triangle_polygons(mesh)],
     )
 
@@ -101,13 +102,46 @@ def _corner_vertices(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     return _read(mesh.loops, "vertex_index", np.int32)
 
 
+def _normals(
+    mesh: bpy.types.Mesh, corner_vertices: NDArray[np.int32], triangle_corners: NDArray[np.int32]
+) -> tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]:
+    """Those of the corners or of the vertices as Cycles has them, neither where all is flat.
+
+    Without sharp edges and custom normals its smooth faces have the normals of their vertices, to which the flat faces
+    beside them add, and which Blender's own corner normals leave out.
+    """
+    domain = _normals_domain(mesh)
+    if domain == "CORNER":
+        return corner_normals(mesh), None
+    if domain == "FACE":
+        return None, None
+    vertex_normals = _read(mesh.vertex_normals, "vector", np.float32, 3)
+    if domain == "POINT":
+        return None, vertex_normals
+    is_flat = ~_read(mesh.polygons, "use_smooth", np.bool_)[_triangle_polygons(mesh)]
+    normals = vertex_normals[corner_vertices]
+    normals[triangle_corners[is_flat]] = 0
+    return normals, None
+
+
 def _normals_domain(mesh: bpy.types.Mesh) -> str:
-    """POINT: all corners at a vertex share its normal, a quarter of the memory; FACE: all is flat; else CORNER."""
-    return mesh.normals_domain if _LAZY else "CORNER"
+    """POINT: all corners at a vertex share its normal; FACE: all is flat; MIXED: one or the other; else CORNER."""
+    if _LAZY:
+        is_mixed = mesh.normals_domain == "CORNER" and not mesh.has_custom_normals and not _has_sharp_edges(mesh)
+        return "MIXED" if is_mixed else mesh.normals_domain
+    if mesh.use_auto_smooth:
+        return "CORNER"
+    is_smooth = _read(mesh.polygons, "use_smooth", np.bool_)
+    return "POINT" if is_smooth.all() else "MIXED" if is_smooth.any() else "FACE"
+
+
+def _has_sharp_edges(mesh: bpy.types.Mesh) -> bool:
+    sharp = mesh.attributes.get("sharp_edge")
+    return sharp is not None and bool(_read(sharp.data, "value", np.bool_).any())
 
 
 def corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
-    """Unit normals of the face corners: flat and smooth faces, sharp edges, auto smooth and custom normals."""
+    """Blender's own, unit: flat and smooth faces, sharp edges, auto smooth and custom normals."""
     if _LAZY:
         return _read(mesh.corner_normals, "vector", np.float32, 3)
     mesh.calc_normals_split()
