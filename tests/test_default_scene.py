@@ -25,6 +25,8 @@ for material in bpy.data.materials:
     for node in material.node_tree.nodes:
         print(material.name, node.type, [socket.name for socket in node.inputs if socket.is_linked],
               [str(getattr(socket, "default_value", "")) and socket.name for socket in node.inputs])
+for image in bpy.data.images:
+    print(image.name, list(image.size), image.packed_file and image.packed_file.size)
 """
 
 

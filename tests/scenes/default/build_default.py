@@ -4,7 +4,7 @@ An argument after `--` names another file to write.
 
 A kitchen still life of real models on a lacquered table, lit as a product shot by lights of very different sizes.
 Lengths are metres, light powers watts. It keeps to what every supported Blender (3.4 .. 5.0) and both engines read
-alike: constant inputs, creases split in the mesh and no modifiers.
+alike: constant inputs or images, creases split in the mesh and no modifiers.
 """
 
 import lzma
@@ -25,7 +25,7 @@ CREASE_ANGLE = math.radians(35)
 Colour = tuple[float, float, float]
 
 
-# -- materials: one shader node, constant inputs
+# -- materials: one shader node, of constant inputs or of an image
 def material(name: str, shader: str, **inputs: float | Colour) -> bpy.types.Material:
     """A material of one shader node; inputs by socket name with spaces as underscores."""
     made = bpy.data.materials.new(name)
@@ -49,8 +49,25 @@ def plastic(name: str, colour: Colour, roughness: float) -> bpy.types.Material:
     return material(name, "ShaderNodeBsdfPrincipled", Base_Color=colour, Roughness=roughness)
 
 
-def diffuse(name: str, colour: Colour) -> bpy.types.Material:
-    return material(name, "ShaderNodeBsdfDiffuse", Color=colour)
+def textured(name: str, image: str, roughness: tuple[float, float], relief_m: float) -> bpy.types.Material:
+    """A plastic of the colours of textures/IMAGE.jpg: where these are black it is lower by the relief, and of the
+    first roughness."""
+    made = plastic(name, (0.5, 0.5, 0.5), 0.5)
+    nodes, links = made.node_tree.nodes, made.node_tree.links
+    surface = nodes["Principled BSDF"]
+    picture, bump, rough = (nodes.new(f"ShaderNode{kind}") for kind in ("TexImage", "Bump", "MapRange"))
+    for node, x, y in ((picture, -600, 0), (bump, -250, -300), (rough, -250, 0)):
+        node.location = x, y
+    picture.image = bpy.data.images.load(str(HERE / "textures" / f"{image}.jpg"))
+    picture.image.pack()
+    bump.inputs["Distance"].default_value = relief_m
+    rough.inputs["To Min"].default_value, rough.inputs["To Max"].default_value = roughness
+    links.new(picture.outputs["Color"], surface.inputs["Base Color"])
+    links.new(picture.outputs["Color"], bump.inputs["Height"])
+    links.new(picture.outputs["Color"], rough.inputs["Value"])
+    links.new(bump.outputs["Normal"], surface.inputs["Normal"])
+    links.new(rough.outputs["Result"], surface.inputs["Roughness"])
+    return made
 
 
 # -- models
@@ -84,9 +101,15 @@ def mesh_size(mesh: bpy.types.Mesh) -> Vector:
 
 
 def model(
-    name: str, height_m: float, at: tuple[float, float], turn_deg: float, materials: dict[str, bpy.types.Material]
+    name: str,
+    height_m: float,
+    at: tuple[float, float],
+    turn_deg: float,
+    materials: dict[str, bpy.types.Material],
+    foot_m: float = 0,
 ) -> bpy.types.Object:
-    """One object of a mesh file, upright on the table; materials by the file's own names ('' if it has none)."""
+    """One object of a mesh file, upright with its foot so high above the table; materials by the file's own names
+    ('' if it has none)."""
     parts = read_mesh(name)
     with bpy.context.temp_override(active_object=parts[0], selected_editable_objects=parts, selected_objects=parts):
         bpy.ops.object.transform_apply()
@@ -103,7 +126,7 @@ def model(
     foot = low + Vector((size.x / 2, size.y / 2, 0))
     mesh.transform(Matrix.Scale(height_m / size.z, 4) @ Matrix.Translation(-foot))
     shade_smooth(mesh)
-    joined.location = (*at, 0)
+    joined.location = (*at, foot_m)
     joined.rotation_euler.z = math.radians(turn_deg)
     return joined
 
@@ -152,7 +175,9 @@ def place_models() -> None:
     coffee = plastic("coffee", (0.02, 0.008, 0.003), 0.08)
     black = plastic("black plastic", (0.012, 0.012, 0.013), 0.35)
     white = plastic("white plastic", (0.75, 0.73, 0.7), 0.3)
-    burlap = diffuse("burlap", (0.42, 0.25, 0.11))
+    burlap = textured("burlap", "teddy_bear", (0.9, 0.7), 0.002)
+    crust = textured("bread", "bread", (0.35, 0.8), 0.002)
+    wood = textured("wood", "chopping_board", (0.3, 0.5), 0.0005)
     mixer_materials = {
         "Kitchenaid_Yellow": enamel,
         "Kitchenaid_Chrome": chrome,
@@ -168,6 +193,8 @@ def place_models() -> None:
     model("coffee_cup", 0.064, (0.13, -0.2), -30, {"Ceramique": porcelain, "Coffee": coffee})
     model("bunny", 0.15, (-0.09, -0.13), 10, {"": gold})
     model("teddy_bear", 0.2, (0.36, 0.02), -25, {"teddy": burlap, "eyes": black})
+    model("chopping_board", 0.021, (0.345, -0.255), 22, {"Chopping-board": wood})
+    model("bread", 0.066, (0.345, -0.255), 32, {"bread01": crust}, foot_m=0.021)
     studio_floor(3, 0.9, 3, plastic("lacquer", (0.035, 0.045, 0.06), 0.2))
 
 
