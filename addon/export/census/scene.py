@@ -79,8 +79,10 @@ SCENE = {
     "CyclesRenderSettings": Table(
         left_out=(
             LeftOut("sample_clamp_direct", 0.0, "nothing is clamped"),
-            LeftOut("sample_clamp_indirect", lambda limit: limit == 0 or limit >= 10, "nothing is clamped"),
-            LeftOut("blur_glossy", lambda radius: radius <= 1, "glossy reflections stay sharp"),
+            LeftOut(
+                "sample_clamp_indirect", lambda limit: limit == 0 or limit >= 10, "Pivot's own Clamp Indirect counts"
+            ),
+            LeftOut("blur_glossy", lambda radius: radius <= 1, "Pivot's own Filter Glossy counts"),
             LeftOut("caustics_reflective", True, "caustics are shown"),
             LeftOut("use_fast_gi", False, "light bounces as it does"),
             LeftOut("film_exposure", 1.0, "the picture is as bright as with 1"),

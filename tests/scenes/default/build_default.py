@@ -234,8 +234,9 @@ def set_render(scene: bpy.types.Scene) -> None:
     cycles = scene.cycles
     cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = 128, False, False
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = 4
-    cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+    cycles.sample_clamp_indirect, cycles.blur_glossy = 0, 1
     addon_utils.enable("pivot")
+    scene.pivot.filter_glossy = 1  # without it the metals' caustics are specks
     scene.render.engine = "PIVOT"
 
 
