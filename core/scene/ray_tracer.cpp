@@ -74,6 +74,21 @@ constexpr auto occluded_batch = rtcOccluded4;
 #endif
 static_assert(std::extent_v<decltype(BatchRays::tfar)> == batch_size && no_instance == RTC_INVALID_GEOMETRY_ID);
 
+/// For rays of one origin and about one direction: they go down the BVH together, not one by one.
+void intersect_coherent(RTCScene scene, BatchHits& hits, const int* valid) {
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    intersect_batch(valid, scene, &hits, &arguments);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    intersect_batch(valid, scene, &context, &hits);
+#endif
+}
+
 /// Fills a packet with a batch; `valid` is -1 for lanes that are rays, else 0. Returns whether any is.
 bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::uint32_t mask) {
     const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
@@ -344,7 +359,10 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
         r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         r.hit.instID[0][i] = no_instance;
     }
-    if (any) trace(intersect_batch, implementation_->traced(), r, valid);
+    if (any && from == visible_to_camera)
+        intersect_coherent(implementation_->traced(), r, valid);
+    else if (any)
+        trace(intersect_batch, implementation_->traced(), r, valid);
     std::array<std::uint32_t, batch_size> instances;
     for (std::size_t i = 0; i < batch_size; ++i) instances[i] = instance_of(r.hit.instID[0][i], r.hit.geomID[i]);
     return {.distance_m = Batch::load_unaligned(r.ray.tfar),
