@@ -35,7 +35,7 @@ void set_parameter(std::string_view kind, const LobeParameter& parameter, const 
 
 template <class L>
 LobeOf<float> to_lobe(float kind, const LobeArguments::value_type::second_type& values) {
-    LobeOf<float> lobe;
+    LobeOf<float> lobe{};
     lobe.kind = kind;
     lobe.write(typename L::Parameters{});
     std::size_t known = 0, first = 0;

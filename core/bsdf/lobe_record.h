@@ -16,9 +16,10 @@ inline constexpr std::size_t max_lobes = 3;
 
 template <class T>
 struct LobeOf {
-    T kind = T(0);         ///< 1: the first of the list, and so on; 0: no lobe, nor in the records after this one
-    T probability = T(0);  ///< of choosing it when the BSDF is sampled
-    std::array<T, sizeof(BaseOf<float>) / sizeof(float)> numbers{};
+    T kind = T(0);  ///< 1: the first of the list, and so on; 0: no lobe, nor in the records after this one
+    // Where there is no lobe these need not be set: most surfaces have none, and of batches this is most of the bytes.
+    T probability;  ///< of choosing it when the BSDF is sampled
+    std::array<T, sizeof(BaseOf<float>) / sizeof(float)> numbers;
 
     /// The lobe, if it is of this kind; else its numbers mean nothing.
     template <class Numbers>

@@ -7,8 +7,8 @@ namespace pivot {
 
 template <class T>
 struct MaterialOf : BaseMaterialOf<T> {
-    Vec3<T> emission{T(0)};                    ///< radiance, both sides; negative: subtracted
-    std::array<LobeOf<T>, max_lobes> lobes{};  ///< their kinds' Parameters
+    Vec3<T> emission{T(0)};                  ///< radiance, both sides; negative: subtracted
+    std::array<LobeOf<T>, max_lobes> lobes;  ///< their kinds' Parameters
 
     Mask<T> is_emissive() const { return max_component(abs(emission)) > T(0); }
 };

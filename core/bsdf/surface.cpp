@@ -13,6 +13,7 @@ constexpr float min_albedo_share = 0.1f;
 template <class T>
 T see_lobe(const LobeOf<T>& material, const Vec3<T>& wo_local, LobeOf<T>& seen) {
     T albedo(0);
+    seen = {};
     seen.kind = material.kind;
     for_each_lobe_kind<T>([&]<class L>(T kind) {
         const Mask<T> is_kind = material.kind == kind;
@@ -28,7 +29,7 @@ T see_lobe(const LobeOf<T>& material, const Vec3<T>& wo_local, LobeOf<T>& seen) 
 
 template <class T>
 SurfaceOf<T> make_surface(const MaterialOf<T>& material, const Vec3<T>& wo_local) {
-    SurfaceOf<T> surface{{make_base(material, wo_local)}};
+    SurfaceOf<T> surface(make_base(material, wo_local));
     if (!any(material.lobes[0].kind > T(0))) return surface;
     std::array<T, max_lobes> albedo;
     T base = mean_component(albedo_base(surface)), total = base;

@@ -10,7 +10,10 @@ namespace pivot {
 
 template <class T>
 struct SurfaceOf : BaseOf<T> {
-    std::array<LobeOf<T>, max_lobes> lobes{};
+    std::array<LobeOf<T>, max_lobes> lobes;
+
+    SurfaceOf() = default;
+    explicit SurfaceOf(const BaseOf<T>& base) : BaseOf<T>(base) {}
 
     Mask<T> has_lobes() const { return lobes[0].kind > T(0); }
 
@@ -42,7 +45,8 @@ SurfaceOf<T> make_surface(const MaterialOf<T>& material, const Vec3<T>& wo_local
 /// The surface, the GGX alpha of all its lobes at least so much; sample() chooses among them as before.
 template <class T>
 SurfaceOf<T> blurred(const SurfaceOf<T>& surface, T least_alpha) {
-    SurfaceOf<T> result{{blurred<T>(static_cast<const BaseOf<T>&>(surface), least_alpha)}, surface.lobes};
+    SurfaceOf<T> result(blurred<T>(static_cast<const BaseOf<T>&>(surface), least_alpha));
+    result.lobes = surface.lobes;
     for (LobeOf<T>& record : result.lobes)
         visit_lobe(record,
                    [&](const auto& lobe, const Mask<T>& is_kind) { record.write(lobe.blurred(least_alpha), is_kind); });

@@ -44,7 +44,7 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
     const Vec3b wo = -arrived.direction;
     const SurfacePointOf<Batch> point = surface_point(corners, arrived.hit.barycentric, wo);
     const Shader& shader = scene.shaders()[lanes[0]->material];
-    if (shader.is_constant()) return {arrived, point, pack_materials(materials)};
+    if (shader.is_constant()) return {point, pack_materials(materials)};
     PlaceLanes place_lanes{.meshes = {},
                            .objects = {},
                            .triangles = {},
@@ -62,7 +62,7 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
         place_lanes.triangles[i] = lanes[i]->hit.triangle;
     }
     run_on_surfaces(shader.program, place_lanes, point, arrived.hit.barycentric, memory);
-    ArrivalBatch batch{arrived, point, material_at(shader, memory.registers)};
+    ArrivalBatch batch{point, material_at(shader, memory.registers)};
     if (shader.normal) {
         const auto& [x, y, z] = *shader.normal;
         const Vec3b normal(memory.registers[x], memory.registers[y], memory.registers[z]);

@@ -23,7 +23,6 @@ using Arrival = ArrivalOf<float>;
 
 /// A batch of arrivals: the surfaces, and what they are made of there. Lanes past the last arrival repeat it.
 struct ArrivalBatch {
-    ArrivalOf<Batch> lanes;
     SurfacePointOf<Batch> point;
     MaterialOf<Batch> material;
     DiffuseBumpOf<Batch> bump{};

@@ -10,11 +10,6 @@ Batch finite(const Batch& x) { return select(abs(x) <= std::numeric_limits<Batch
 
 }  // namespace
 
-bool Shader::has_varying_emission() const {
-    return std::ranges::any_of(
-        varying, [](const Varying& v) { return v.number >= emission_place && v.number < emission_place + 3; });
-}
-
 MaterialOf<Batch> material_at(const Shader& shader, std::span<const Batch> registers) {
     MaterialOf<Batch> material = broadcast<MaterialOf>(shader.constants);
     for (const Varying& v : shader.varying) {

@@ -1,6 +1,7 @@
 // What a material means: numbers, of which those that vary over a surface are a program's registers.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/bsdf/material.h"
@@ -26,7 +27,10 @@ struct Shader {
     Shader(const Material& material, Program runs) : constants(material), program(std::move(runs)) {}
 
     bool is_constant() const { return varying.empty() && !normal; }
-    bool has_varying_emission() const;
+    bool has_varying_emission() const {
+        return std::ranges::any_of(
+            varying, [](const Varying& v) { return v.number >= emission_place && v.number < emission_place + 3; });
+    }
     /// Whether light may leave it of its own.
     bool is_emissive() const { return has_varying_emission() || constants.is_emissive(); }
 };
