@@ -1,5 +1,7 @@
 #include "core/integrators/direct_light.h"
 
+#include <algorithm>
+
 #include "core/integrators/light_choice.h"
 #include "core/integrators/light_sampler.h"
 
@@ -9,7 +11,7 @@ namespace {
 /// A light for each vertex of a batch, and how often such a choice takes it.
 struct LightPicks {
     std::array<std::size_t, batch_size> light;
-    Lanes expected_samples;  ///< 0: no sample
+    Lanes expected_samples{};  ///< 0: no sample
 };
 
 /// How far a light sample's shadow ray goes.
@@ -46,57 +48,53 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
-    std::array<const Light*, batch_size> lights{};
-    std::array<std::uint8_t, batch_size> is_area{}, left{};
+    std::array<const Light*, batch_size> lights;
+    for (std::size_t i = 0; i < batch_size; ++i)
+        lights[i] = &scene.light(picks.light[std::min(i, vertices.count() - 1)]);
+    const Batch expected = load(picks.expected_samples);
+    BatchMask left = expected > Batch(0.0f) && vertices.is_vertex();
     // BSDF samples that meet emissive meshes count whatever is there.
     const auto share = [&](std::size_t i) {
         if (picks.light[i] < lamp_count) shared_lamps.add(i, {picks.light[i], picks.expected_samples[i]});
     };
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        if (i >= vertices.count() || !(picks.expected_samples[i] > 0.0f)) continue;
-        lights[i] = &scene.light(picks.light[i]);
-        is_area[i] = std::holds_alternative<AreaLight>(*lights[i]);
-        left[i] = 1;
-    }
-    std::array<bool, batch_size> has_lobes{};
-    if (any(vertices.surface.has_lobes())) has_lobes = store(vertices.surface.has_lobes());
-    const auto sample_kind = [&](std::uint8_t area, const auto& sample_lanes) {
-        Lanes chosen{}, expected{};
-        std::array<const Light*, batch_size> of_kind{};
-        const Light* any_light = nullptr;
-        for (std::size_t i = 0; i < batch_size; ++i) {
-            const bool is_chosen = lights[i] && is_area[i] == area && !has_lobes[i];
-            chosen[i] = is_chosen ? 1.0f : 0.0f;
-            expected[i] = is_chosen ? picks.expected_samples[i] : 1.0f;
-            if (is_chosen) of_kind[i] = any_light = lights[i];
+    const auto sample_kind = [&](const BatchMask& is_kind, const auto& sample_lanes) {
+        const BatchMask chosen = left && is_kind && !vertices.surface.has_lobes();
+        if (!any(chosen)) return;
+        std::array<const Light*, batch_size> of_kind = lights;
+        if (any(!chosen)) {
+            // Of lanes of another kind, the batch computes what nobody reads.
+            const auto is_chosen = store(chosen);
+            const auto first = std::ranges::find(is_chosen, true) - is_chosen.begin();
+            for (std::size_t i = 0; i < batch_size; ++i)
+                if (!is_chosen[i]) of_kind[i] = lights[static_cast<std::size_t>(first)];
         }
-        if (!any_light) return;
-        // Of lanes of another kind, the batch computes what nobody reads.
-        std::replace(of_kind.begin(), of_kind.end(), static_cast<const Light*>(nullptr), any_light);
         const LaneSamples lit = sample_lanes(vertices, of_kind, u);
-        const BatchMask sampled = lit.valid && load(chosen) > Batch(0.0f);
-        Batch weight = Batch(1.0f) / load(expected);
+        const BatchMask sampled = lit.valid && chosen;
+        Batch weight = Batch(1.0f) / expected;
         if (const BatchMask shared = sampled && lit.needs_bsdf; any(shared)) {
             const Batch other = pdf_omega(vertices.surface, vertices.point.frame.to_local(lit.sample.wi));
-            weight *= select(shared, balance(load(expected) * lit.pdf_omega, other), Batch(1.0f));
+            weight *= select(shared, balance(expected * lit.pdf_omega, other), Batch(1.0f));
             const auto flags = store(shared);
             for (std::size_t i = 0; i < vertices.count(); ++i)
                 if (flags[i]) share(i);
         }
         samples = {select(sampled, lit.sample.radiance * weight, samples.radiance),
                    select(sampled, lit.sample.wi, samples.wi), select(sampled, lit.sample.reach_m, samples.reach_m)};
-        const auto done = store(sampled);
-        for (std::size_t i = 0; i < batch_size; ++i) left[i] &= static_cast<std::uint8_t>(!done[i]);
+        left = left && !sampled;
     };
     if (strategy == LightSampling::joint) {
-        sample_kind(0, sample_cap_lights);
-        sample_kind(1, sample_area_lights);
+        const BatchMask is_area = gather([&](std::size_t i) {
+                                      return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
+                                  }) > Batch(0.0f);
+        sample_kind(!is_area, sample_cap_lights);
+        sample_kind(is_area, sample_area_lights);
     }
-    if (std::none_of(left.begin(), left.end(), [](std::uint8_t flag) { return flag != 0; })) return samples;
+    if (!any(left)) return samples;
+    const auto is_left = store(left);
     std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
     const Lanes u_x = store(u.x), u_y = store(u.y);
     for (std::size_t i = 0; i < vertices.count(); ++i) {
-        if (!left[i]) continue;
+        if (!is_left[i]) continue;
         const SharedSample one =
             sample_light_of(*lights[i], strategy, vertices.lane(i), {u_x[i], u_y[i]}, picks.expected_samples[i]);
         each[i] = one.sample;

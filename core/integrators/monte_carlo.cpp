@@ -274,12 +274,10 @@ std::size_t trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t
               batch.lanes.throughput *
                   direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shared, work.memory));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
-    Lanes wanted{};
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool is_last = bounce == work.settings.max_bounces;
-        wanted[i] = !is_last || work.scene.has_unsampled_light() || !shared.at(i).empty() ? 1.0f : 0.0f;
-    }
-    const BatchMask is_wanted = load(wanted) > Batch(0.0f);
+    BatchMask is_wanted = batch.vertices.is_vertex();
+    if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
+        is_wanted =
+            is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
     if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
     if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shared, next);
