@@ -1,6 +1,6 @@
 #include "core/integrators/light_choice.h"
 
-#include <numeric>
+#include <algorithm>
 
 #include "core/integrators/joint_sampling.h"
 
@@ -64,56 +64,53 @@ Batch light_importance(const Receiver& receiver, const LightProxy& light) {
         const Batch cos_below = select(large, one, min(max(-local.axis.z, Batch(0.5f) * (sine - local.axis.z)), one));
         reflected += receiver.lobes.below * max(cos_below, zero) * sin2;
     }
-    return reflected * lit * light.radiance;
+    // Where there is no light, what is above has no meaning.
+    return select(light.radiance > zero, reflected * lit * light.radiance, zero);
 }
 
-/// What a node's children weigh for one vertex.
-Weights child_weights(const LightTree::Node& node, const Receiver& receiver) {
+/// What a node's children weigh for one vertex, each with all before it. Past the last child: all.
+Weights cumulative_weights(const LightTree::Node& node, const Receiver& receiver) {
     Weights weights;
     for (std::size_t first = 0; first < light_tree_width; first += batch_size)
         light_importance(receiver, node.proxies.batch(first)).store_unaligned(&weights[first]);
+    float sum = 0.0f;
+    for (float& weight : weights) weight = sum += weight;
     return weights;
 }
 
+/// One of a vertex's choices on its way down the tree.
 struct Pick {
     float u;
+    std::uint32_t child;
     std::size_t light;
     float probability;
 };
 
-/// Which child u falls into, and what is left of u within it.
-std::size_t split(const Weights& weights, std::size_t count, float total, float& u, float& probability) {
-    float left = u * total;
-    std::size_t chosen = count;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!(weights[i] > 0.0f)) continue;
-        chosen = i;
-        if (left < weights[i]) break;
-        left -= weights[i];
-    }
-    u = std::min(left / weights[chosen], 1.0f - 0x1p-24f);
-    probability *= weights[chosen] / total;
-    return chosen;
+/// Sends a pick to the child that its u falls into, and leaves what is left of u within it. The weights' sum is above
+/// 0, so that the child's is too.
+void choose_child(const Weights& cumulative, Pick& pick) {
+    const float total = cumulative.back(), at = pick.u * total;
+    std::uint32_t child = 0;
+    for (const float sum : cumulative) child += sum <= at ? 1 : 0;
+    const float before = child > 0 ? cumulative[child - 1] : 0.0f, weight = cumulative[child] - before;
+    pick.child = child;
+    pick.u = std::min((at - before) / weight, 1.0f - 0x1p-24f);
+    pick.probability *= weight / total;
 }
 
-/// Sends picks, whose u ascend, down from a node; a pick that finds nothing keeps probability 0.
-/// weights_of(node): of the node's children.
+/// Sends picks, whose u ascend, down from a node; a pick that finds nothing gets probability 0.
+/// weights_of(node): cumulative_weights.
 template <class WeightsOf>
-void descend(const LightTree& tree, const LightTree::Node& node, const Weights& weights, const WeightsOf& weights_of,
+void descend(const LightTree& tree, const LightTree::Node& node, const Weights& cumulative, const WeightsOf& weights_of,
              std::span<Pick> picks) {
-    const float total = std::accumulate(weights.begin(), weights.begin() + node.count, 0.0f);
-    if (!(total > 0.0f)) {
+    if (!(cumulative.back() > tiny<float>)) {
         for (Pick& pick : picks) pick.probability = 0.0f;
         return;
     }
-    for (std::size_t first = 0; first < picks.size();) {
-        const std::size_t child = split(weights, node.count, total, picks[first].u, picks[first].probability);
-        std::size_t end = first + 1;
-        while (end < picks.size()) {
-            Pick next = picks[end];
-            if (split(weights, node.count, total, next.u, next.probability) != child) break;
-            picks[end++] = next;
-        }
+    for (Pick& pick : picks) choose_child(cumulative, pick);
+    for (std::size_t first = 0, end; first < picks.size(); first = end) {
+        const std::uint32_t child = picks[first].child;
+        for (end = first + 1; end < picks.size() && picks[end].child == child;) ++end;
         const std::span<Pick> together = picks.subspan(first, end - first);
         if (node.child[child] >= 0) {
             const LightTree::Node& below = tree.nodes()[static_cast<std::size_t>(node.child[child])];
@@ -121,7 +118,6 @@ void descend(const LightTree& tree, const LightTree::Node& node, const Weights& 
         } else {
             for (Pick& pick : together) pick.light = static_cast<std::size_t>(~node.child[child]);
         }
-        first = end;
     }
 }
 
@@ -132,22 +128,25 @@ void choose_lights(const LightTree& tree, const VertexBatch& vertices, const Bat
     const LightTree::Node& root = tree.nodes()[0];
     const Receiver receiver = receiver_at<Batch>(vertices);
     std::optional<std::array<ReceiverOf<float>, batch_size>> each;
-    std::array<Lanes, light_tree_width> root_weights;  // [child][vertex]
-    for (std::size_t i = 0; i < root.count; ++i)
-        root_weights[i] = store(light_importance(receiver, root.proxies.broadcast(i)));
+    std::array<Lanes, light_tree_width> root_weights;  // [child][vertex], each child's with all before it
+    Batch sum(0.0f);
+    for (std::size_t i = 0; i < light_tree_width; ++i) {
+        if (i < root.count) sum += light_importance(receiver, root.proxies.broadcast(i));
+        root_weights[i] = store(sum);
+    }
     const Lanes u_lanes = store(u);
     const auto n = static_cast<float>(choices.size());
     std::array<Pick, max_light_samples> picks;
     for (std::size_t lane = 0; lane < vertices.count(); ++lane) {
         for (std::size_t k = 0; k < choices.size(); ++k)
-            picks[k] = {(static_cast<float>(k) + u_lanes[lane]) / n, 0, 1.0f};
-        Weights weights{};
-        for (std::size_t i = 0; i < root.count; ++i) weights[i] = root_weights[i][lane];
+            picks[k] = {(static_cast<float>(k) + u_lanes[lane]) / n, 0, 0, 1.0f};
+        Weights weights;
+        for (std::size_t i = 0; i < light_tree_width; ++i) weights[i] = root_weights[i][lane];
         std::optional<Receiver> alone;
         const auto weights_of = [&](const LightTree::Node& node) {
             if (!each) each = unpack<ReceiverOf>(receiver);
             if (!alone) alone = broadcast<ReceiverOf>((*each)[lane]);
-            return child_weights(node, *alone);
+            return cumulative_weights(node, *alone);
         };
         descend(tree, root, weights, weights_of, std::span(picks).first(choices.size()));
         for (std::size_t k = 0; k < choices.size(); ++k) {
@@ -163,10 +162,10 @@ float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_
     float probability = 1.0f;
     while (index >= 0) {
         const LightTree::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
-        const Weights weights = child_weights(node, receiver);
-        const float total = std::accumulate(weights.begin(), weights.begin() + node.count, 0.0f);
-        if (!(weights[place] > 0.0f)) return 0.0f;
-        probability *= weights[place] / total;
+        const Weights cumulative = cumulative_weights(node, receiver);
+        const float weight = cumulative[place] - (place > 0 ? cumulative[place - 1] : 0.0f);
+        if (!(weight > 0.0f) || !(cumulative.back() > tiny<float>)) return 0.0f;
+        probability *= weight / cumulative.back();
         index = node.parent;
         place = node.place_in_parent;
     }
