@@ -31,37 +31,39 @@ Batch light_importance(const Receiver& receiver, const LightProxy& light) {
     const Batch zero(0.0f), one(1.0f);
     const auto is_sun = light.sun_versine > zero;
     const Vec3b to_center = light.center - receiver.position;
-    Cap<Batch> cap = cap_of_sphere(to_center, light.radius_m);
-    cap.axis = select(is_sun, light.center, cap.axis);
-    cap.versine = select(is_sun, light.sun_versine, cap.versine);
+    const Batch inverse_distance = inverse_sqrt(max(length_squared(to_center), tiny<Batch>));
+    const Vec3b towards = select(is_sun, light.center, to_center * inverse_distance);
 
     // A flat light is seen at its slant, a spot within its cone.
-    const Batch facing = -dot(to_center, light.normal) / max(length(to_center), tiny<Batch>);
+    const Batch facing = -dot(towards, light.normal);
     const Batch cos_light = select(light.two_sided > zero, abs(facing), facing);
-    const Batch lit = max((cos_light - light.cos_cone) / (one - light.cos_cone), light.least_lit);
+    const Batch lit =
+        max((cos_light - light.cos_cone) * inverse(max(one - light.cos_cone, tiny<Batch>)), light.least_lit);
 
     // Around the point, or nearly: all that is above it.
-    const auto large = cap.versine > one;
-    Cap<Batch> local{receiver.frame.to_local(cap.axis), cap.versine};
-    local.axis = select(large, Vec3b(zero, zero, one), local.axis);
-    local.versine = select(large, one, local.versine);
-    const Batch sin2 = sin2_half_angle(local), sine = sqrt(sin2);
-    const Batch cos_surface = min(max(local.axis.z, Batch(0.5f) * (local.axis.z + sine)), one);
+    const Batch of_sphere = sqr(light.radius_m * inverse_distance);
+    const Batch of_sun = light.sun_versine * (Batch(2.0f) - light.sun_versine);
+    const auto large = light.sun_versine > one || of_sphere > one;
+    const Vec3b axis = select(large, Vec3b(zero, zero, one), receiver.frame.to_local(towards));
+    const Batch sin2 = select(large, one, select(is_sun, of_sun, of_sphere)), sine = sqrt(sin2);
+    const Batch cos_surface = min(max(axis.z, Batch(0.5f) * (axis.z + sine)), one);
     Batch reflected = surface.diffuse * cos_surface * sin2;
     if (any(surface.fresnel_f0 + surface.fresnel_f90 > zero)) {
         // The lobe at the light's centre, wider by the light: what ggx_cap integrates, to some ten per cent.
-        const Vec3b h = surface.wo_local + local.axis;
+        const Vec3b h = surface.wo_local + axis;
         const Batch h2 = dot(h, h), alpha2 = surface.alpha * surface.alpha + Batch(0.25f) * sin2;
-        const Batch slope = (h.x * h.x + h.y * h.y + alpha2 * h.z * h.z) / max(h2, tiny<Batch>);
+        const Batch slope = (h.x * h.x + h.y * h.y + alpha2 * h.z * h.z) * inverse(max(h2, tiny<Batch>));
         const Batch fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(Batch(0.5f) * sqrt(h2)));
-        const Batch density = alpha2 / max(Batch(4.0f * pi<float>) * surface.wo_local.z * slope * slope, tiny<Batch>);
-        reflected += fresnel * min(density * solid_angle(local), one);
+        const Batch density =
+            alpha2 * inverse(max(Batch(4.0f * pi<float>) * surface.wo_local.z * slope * slope, tiny<Batch>));
+        const Batch solid_angle = Batch(2.0f * pi<float>) * sin2 * inverse(one + safe_sqrt(one - sin2));
+        reflected += fresnel * min(density * solid_angle, one);
     }
     // Of further lobes what an even one of their albedo would send on, so that no light that they meet is forgotten.
     if (any(receiver.lobes.above > zero)) reflected += receiver.lobes.above * cos_surface * sin2;
-    reflected = select(local.axis.z + sine > zero, reflected, zero);
+    reflected = select(axis.z + sine > zero, reflected, zero);
     if (any(receiver.lobes.below > zero)) {
-        const Batch cos_below = select(large, one, min(max(-local.axis.z, Batch(0.5f) * (sine - local.axis.z)), one));
+        const Batch cos_below = select(large, one, min(max(-axis.z, Batch(0.5f) * (sine - axis.z)), one));
         reflected += receiver.lobes.below * max(cos_below, zero) * sin2;
     }
     // Where there is no light, what is above has no meaning.
