@@ -52,10 +52,10 @@ struct SeenPlace {
 template <class T>
 SeenPlace<T> see(const AreaView<T>& light, const Vec2<T>& place) {
     const Vec3<T> d = light.center + place.x * light.half_u + place.y * light.half_v;
-    const T distance2 = dot(d, d), distance = sqrt(distance2);
-    const T inverse = T(1) / max(distance, tiny<T>);
-    const Vec3<T> wi = d * inverse;
-    return {wi, distance, max(-dot(wi, light.normal), T(0)) * inverse * inverse * light.parallelogram_m2};
+    const T distance2 = dot(d, d), per_distance = inverse_sqrt(max(distance2, tiny<T>));
+    const Vec3<T> wi = d * per_distance;
+    return {wi, distance2 * per_distance,
+            max(-dot(wi, light.normal), T(0)) * sqr(per_distance) * light.parallelogram_m2};
 }
 
 namespace detail {
@@ -69,19 +69,23 @@ template <class T>
 struct AreaWarp {
     T center, scale, t_low, t_width;
 
-    static T to_t(T z) { return z / sqrt(T(1) + z * z); }
+    static T to_t(T z) { return z * inverse_sqrt(T(1) + z * z); }
 
     AreaWarp() = default;
     AreaWarp(T center_, T scale_, T half_width) : center(center_), scale(scale_) {
-        t_low = to_t((-half_width - center) / scale);
-        t_width = max(to_t((half_width - center) / scale) - t_low, tiny<T>);
+        const T per_scale = inverse(scale);
+        t_low = to_t((-half_width - center) * per_scale);
+        t_width = max(to_t((half_width - center) * per_scale) - t_low, tiny<T>);
     }
-    T place(T unit) const {
-        const T t = t_low + unit * t_width;
-        return center + scale * t / sqrt(max(T(1) - t * t, T(1e-12f)));
+    struct Place {
+        T x, width;  ///< width: of all numbers, if x moved everywhere as it does here
+    };
+    Place place(T unit) const {
+        const T t = t_low + unit * t_width, stretch = inverse_sqrt(max(T(1) - t * t, T(1e-12f)));
+        return {center + scale * t * stretch, scale * t_width * stretch * sqr(stretch)};
     }
     T unit(T x) const { return (to_t((x - center) / scale) - t_low) / t_width; }
-    /// Density of place(uniform).
+    /// Density of place(uniform): 1 / width there.
     T pdf(T x) const {
         const T z = (x - center) / scale, s = T(1) / (T(1) + z * z);
         return s * sqrt(s) / (scale * t_width);
@@ -132,9 +136,9 @@ struct AreaGrid {
     T integral;                                              ///< of what the cells were chosen by
 
     AreaWarp<T> y_warp(const AreaView<T>& light, T x) const {
-        const T height = half_height(light, x), z = (x - x_warp.center) / x_warp.scale;
+        const T height = half_height(light, x), z = (x - x_warp.center) * inverse(x_warp.scale);
         const T wanted = y_center + shear * (x - x_warp.center);
-        const T center = max(min(wanted, height), -height), off = (wanted - center) / y_scale;
+        const T center = max(min(wanted, height), -height), off = (wanted - center) * inverse(y_scale);
         return AreaWarp<T>(center, y_scale * sqrt(T(1) + z * z + off * off), height);
     }
 
@@ -145,18 +149,18 @@ struct AreaGrid {
         std::array<T, area_columns> sums;
         integral = T(0);
         for (std::size_t i = 0; i < area_columns; ++i) {
-            const T x = x_warp.place(T((static_cast<float>(i) + 0.5f) / columns));
+            const auto [x, width] = x_warp.place(T((static_cast<float>(i) + 0.5f) / columns));
             const AreaWarp<T> warp = y_warp(light, x);
-            const T dx = T(1 / columns) / x_warp.pdf(x);
+            const T dx = width * T(1 / columns);
             sums[i] = T(0);
             for (std::size_t j = 0; j < area_rows; ++j) {
-                const T y = warp.place(T((static_cast<float>(j) + 0.5f) / rows));
-                const T dy = T(1 / rows) / warp.pdf(y);
+                const auto [y, height] = warp.place(T((static_cast<float>(j) + 0.5f) / rows));
+                const T dy = height * T(1 / rows);
                 row[j][i] = value(x, y, dx, dy) * dx * dy;
                 sums[i] += row[j][i];
             }
             const auto lit = sums[i] > tiny<T>;
-            const T scale = select(lit, T(1.0f - area_even_share) / max(sums[i], tiny<T>), T(0));
+            const T scale = select(lit, T(1.0f - area_even_share) * inverse(max(sums[i], tiny<T>)), T(0));
             const T even = select(lit, T(area_even_share / rows), T(1 / rows));
             for (std::size_t j = 0; j < area_rows; ++j) row[j][i] = row[j][i] * scale + even;
             integral += sums[i];
@@ -171,9 +175,9 @@ struct AreaGrid {
         const T i = choose_part(column, u.x);
         std::array<T, area_rows> rows;
         for (std::size_t k = 0; k < area_rows; ++k) rows[k] = at_index(row[k], i);
-        const T x = x_warp.place((i + u.x) * T(1.0f / area_columns));
+        const T x = x_warp.place((i + u.x) * T(1.0f / area_columns)).x;
         const T j = choose_part(rows, u.y);
-        return {x, y_warp(light, x).place((j + u.y) * T(1.0f / area_rows))};
+        return {x, y_warp(light, x).place((j + u.y) * T(1.0f / area_rows)).x};
     }
 
     /// By x and y.
@@ -196,13 +200,13 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
     const T towards = max(-dot(mirrored, light.normal), T(1e-4f));
     const Vec3<T> offset = mirrored * (-dot(light.center, light.normal) / towards) - light.center;
     const Vec3<T> across_u = cross(light.half_v, light.normal), across_v = cross(light.normal, light.half_u);
-    const T inverse = T(1) / light.parallelogram_m2;
-    T x = min(max(dot(offset, across_u) * inverse, T(-1)), T(1));
+    const T per_m2 = inverse(light.parallelogram_m2);
+    T x = min(max(dot(offset, across_u) * per_m2, T(-1)), T(1));
     const T height = half_height(light, x);
-    T y = min(max(dot(offset, across_v) * inverse, -height), height);
+    T y = min(max(dot(offset, across_v) * per_m2, -height), height);
     // Below the horizon there is no lobe to fit: go towards the light's highest place.
     const T rise_u = light.half_u.z, rise_v = light.half_v.z;
-    const T shrink = select(light.ellipse, T(1) / sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
+    const T shrink = select(light.ellipse, inverse_sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
     const T end_x = select(rise_u < T(0), T(-1), T(1)), end_y = select(rise_v < T(0), T(-1), T(1));
     const T top_x = select(light.ellipse, rise_u * shrink, end_x);
     const T top_y = select(light.ellipse, rise_v * shrink, end_y);
@@ -214,11 +218,11 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
 
     // Slopes there, in alphas, and how they change with x and y.
     const Vec3<T> d = light.center + x * light.half_u + y * light.half_v;
-    const T inverse_d = T(1) / sqrt(max(dot(d, d), tiny<T>));
+    const T inverse_d = inverse_sqrt(max(dot(d, d), tiny<T>));
     const Vec3<T> wi = d * inverse_d;
-    const T h_z = max(wo.z + wi.z, T(1e-3f)), inverse_h = T(1) / h_z;
+    const T h_z = max(wo.z + wi.z, T(1e-3f)), inverse_h = inverse(h_z);
     const Vec2<T> m((wo.x + wi.x) * inverse_h, (wo.y + wi.y) * inverse_h);
-    const T per_alpha = T(1) / alpha;
+    const T per_alpha = inverse(alpha);
     const auto slope_change = [&](const Vec3<T>& along) {
         const Vec3<T> turn = (along - dot(along, wi) * wi) * inverse_d;
         return Vec2<T>((turn.x - m.x * turn.z) * inverse_h * per_alpha,
@@ -227,11 +231,11 @@ AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
     const Vec2<T> m_u = slope_change(light.half_u), m_v = slope_change(light.half_v);
     const T tail = sqrt(T(1) + dot(m, m) * per_alpha * per_alpha);
     const T vv = max(dot(m_v, m_v), T(1e-6f)), uv = dot(m_u, m_v);
-    const T uu = max(dot(m_u, m_u) - uv * uv / vv, T(1e-6f));  // of x whatever y
-    grid.x_warp = AreaWarp<T>(x, tail / sqrt(uu), T(1));
+    const T shear = -uv * inverse(vv), uu = max(dot(m_u, m_u) + uv * shear, T(1e-6f));  // of x whatever y
+    grid.x_warp = AreaWarp<T>(x, tail * inverse_sqrt(uu), T(1));
     grid.y_center = y;
-    grid.shear = -uv / vv;
-    grid.y_scale = tail / sqrt(vv);
+    grid.shear = shear;
+    grid.y_scale = tail * inverse_sqrt(vv);
     return grid;
 }
 
@@ -265,8 +269,8 @@ class AreaSampler {
                 const Vec3<T> h = surface.wo_local + seen.wi;
                 const T h2 = dot(h, h), slope = h.x * h.x + h.y * h.y + alpha2 * h.z * h.z;
                 const T cos_i = cosine_of_cell(seen, dx, dy);
-                const T masking = cos_i / (cos_i + sqrt(alpha2 + (T(1) - alpha2) * cos_i * cos_i));
-                return sqr(h2 / slope) * masking * seen.omega_per_xy;
+                const T masking = cos_i * inverse(cos_i + sqrt(alpha2 + (T(1) - alpha2) * cos_i * cos_i));
+                return sqr(h2 * inverse(slope)) * masking * seen.omega_per_xy;
             });
             const T fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(surface.wo_local.z));
             glossy = fresnel * glossy_.integral * alpha2 * ggx_g1(surface.wo_local, surface.alpha, surface.alpha) /
@@ -299,7 +303,8 @@ class AreaSampler {
    private:
     /// At its centre, or of what of a cell is above the horizon that its centre is below.
     T cosine_of_cell(const SeenPlace<T>& seen, T dx, T dy) const {
-        const T rise = T(0.5) * (dx * abs(light_.half_u.z) + dy * abs(light_.half_v.z)) / max(seen.distance_m, tiny<T>);
+        const T rise =
+            T(0.5) * (dx * abs(light_.half_u.z) + dy * abs(light_.half_v.z)) * inverse(max(seen.distance_m, tiny<T>));
         return max(max(seen.wi.z, T(0.25) * (seen.wi.z + rise)), T(0));
     }
 
