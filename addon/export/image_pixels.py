@@ -7,7 +7,7 @@ scene/image.cpp and scene/image_oiio.cpp.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,9 +33,11 @@ def associates_alpha(image: Any) -> bool:
     return not image.colorspace_settings.is_data and image.alpha_mode not in {"CHANNEL_PACKED", "NONE"}
 
 
-def stored_pixels(image: Any, warn: Callable[[str], None]) -> Pixels | None:
+def stored_pixels(image: Any) -> Pixels | None:
     """None where it cannot be read. Leaves Blender's own copy of a file's pixels as it was, read or not."""
     was_loaded = image.has_data
+    if was_loaded and not image.is_dirty and image.source == "FILE" and not image.packed_file:
+        image.buffers_free()  # the file may have changed since
     width, height = image.size
     channels = image.channels
     if width * height * channels == 0:
@@ -47,7 +49,7 @@ def stored_pixels(image: Any, warn: Callable[[str], None]) -> Pixels | None:
     if not was_loaded and not image.is_dirty and image.source == "FILE":
         image.buffers_free()  # and now nothing may be asked of the image that reads it again
     if not is_float:
-        return _stored_bytes(image, values, warn)
+        return _stored_bytes(image, values)
     _clear_nonsense(values)
     return _stored_words(image, values) if is_words else Pixels(_as_halves(values))
 
@@ -58,16 +60,12 @@ def _chunks(texels: NDArray[Any]) -> Iterator[slice]:
     return (slice(first, first + rows) for first in range(0, len(texels), rows))
 
 
-def _stored_bytes(image: Any, values: NDArray[np.float32], warn: Callable[[str], None]) -> Pixels:
+def _stored_bytes(image: Any, values: NDArray[np.float32]) -> Pixels:
     """values: bytes / 255, as the file has them; overwritten, since they are four times the size of what is made."""
     channels = values.shape[2]
     space = image.colorspace_settings.name
     if channels >= 3 and not image.colorspace_settings.is_data and space not in {"sRGB", *_UNCONVERTED}:
-        try:
-            return _converted(image, values, space)
-        except AttributeError:  # Blender lets nobody set a property while it draws
-            warn(f"in the 3D view the color space {space} is not supported, it is shown as sRGB")
-            space = "sRGB"
+        return _converted(image, values, space)
     numbers = values.ravel()
     texels = numbers.view(np.uint8)[: numbers.size]
     for part in _chunks(numbers):
