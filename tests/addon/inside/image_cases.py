@@ -222,9 +222,30 @@ for _mode in ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"):
     CASES[f"alpha_{_mode.lower()}_unlinked"] = _alpha(_mode, False)
 
 
-def _file(kind: str, depth: str, mode: str, packed: bool) -> Callable[[Any, Path], Any]:
+@case
+def _float_straight(tree: Any, _: Path) -> None:
+    image = _generated(5, 7, is_float=True, alpha=True)
+    image.alpha_mode = "STRAIGHT"
+    _with_alpha(tree, _texture(tree, image))
+
+
+@case
+def _float_without_alpha(tree: Any, _: Path) -> None:
+    image = _generated(5, 7, is_float=True, alpha=True)
+    image.alpha_mode = "NONE"
+    _with_alpha(tree, _texture(tree, image))
+
+
+def _file(kind: str, depth: str, mode: str, packed: bool, alpha_mode: str = "") -> Callable[[Any, Path], Any]:
     def make(tree: Any, folder: Path) -> None:
-        image = _saved(folder, _generated(9, 5, is_float=kind == "OPEN_EXR", alpha=mode == "RGBA"), kind, depth, mode)
+        generated = _generated(9, 5, is_float=kind == "OPEN_EXR", alpha=mode == "RGBA")
+        if alpha_mode == "PREMUL":
+            texels = _pixels(9, 5, alpha=True)
+            texels[..., :3] *= texels[..., 3:]
+            generated.pixels.foreach_set(texels.ravel())
+        image = _saved(folder, generated, kind, depth, mode)
+        if alpha_mode:
+            image.alpha_mode = alpha_mode
         if packed:
             image.pack()
         _with_alpha(tree, _texture(tree, image))
@@ -247,6 +268,15 @@ for _kind, _depth, _mode, _packed in (
     *((("HDR", "32", "RGB", False),) if bpy.app.version >= (4, 0) else ()),
 ):
     CASES[f"{_kind}_{_depth}_{_mode}{'_packed' if _packed else ''}".lower()] = _file(_kind, _depth, _mode, _packed)
+
+for _kind, _depth, _mode, _packed in (
+    ("PNG", "8", "PREMUL", False),
+    ("PNG", "16", "PREMUL", False),
+    ("OPEN_EXR", "32", "STRAIGHT", False),
+    ("OPEN_EXR", "32", "STRAIGHT", True),
+):
+    _name = f"{_kind}_{_depth}_{_mode}{'_packed' if _packed else ''}".lower()
+    CASES[_name] = _file(_kind, _depth, "RGBA", _packed, _mode)
 
 
 def _projected(projection: str, blend: float = 0.0) -> Callable[[Any, Path], Any]:
