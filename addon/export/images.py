@@ -72,13 +72,13 @@ class ImageTable:
     core: ModuleType  # pivot_core
     frame: int  # the scene's
     cache: ImageCache
-    shows_frames: bool = False  # whether any picture is one of a sequence
+    shows_frames: bool = False  # whether any picture is one of a sequence or movie
     _pictures: dict[_Key, Picture | None] = field(default_factory=dict)
 
     def picture(self, image: Any, user: Any, warn: Callable[[str], None]) -> Picture | None:
         """What a node shows; None, and a warning, where there is nothing. user: its bpy.types.ImageUser."""
         frame = 0
-        if image.source == "SEQUENCE":
+        if image.source in {"SEQUENCE", "MOVIE"}:
             frame, self.shows_frames = frame_shown(user, self.frame), True
         key = (image.as_pointer(), frame)
         if key not in self._pictures:
@@ -96,18 +96,18 @@ class ImageTable:
         return _Entry(state, picture if tiles else None, tuple(said))
 
     def _tiles(self, image: Any, frame: int, warn: Callable[[str], None]) -> dict[Tile, Any]:
-        kind = "multilayer" if image.type == "MULTILAYER" else image.source.lower()
-        if kind in {"multilayer", "movie", "viewer"}:
-            warn(f"{kind} images are not supported, it is shown in pink")
+        if image.source == "VIEWER":
+            warn("viewer images are not supported, it is shown in pink. Fix: save it and choose the file")
             return {}
-        if image.source == "TILED" and image.packed_file and len(image.tiles) > 1:
-            warn("tiles that are packed are not supported, all but the first are pink. Fix: unpack it")
         tiles = {}
         for part in image_parts(image, frame):
-            with opened(image, part) as own:
-                pixels = None if own is None else stored_pixels(own)
+            pixels, what = None, f" '{part.path}' is not there or not an image." if part.path else ""
+            try:
+                with opened(image, part) as own:
+                    pixels = None if own is None else stored_pixels(own)
+            except ValueError as error:
+                what = f" {error}."
             if pixels is None:
-                what = f" '{part.path}' is not there or not an image." if part.path else ""
                 warn(f"it cannot be read and is shown in pink.{what} Fix: choose its file anew")
             else:
                 tiles[part.tile] = self.core.Image(pixels.texels, srgb=pixels.srgb)

@@ -26,6 +26,7 @@ def test_what_is_missing_is_said(cases: Any) -> None:
     assert "image 'saved.png'" in said["missing_file"][0]
     assert "material 'picture', node 'Image Texture': it has no image" in said["no_image"][0]
     assert "tile.1011.png' is not there" in said["tiles_without_one"][0]
+    assert "supported where its first layer is of R, G, B and A" in cases["colorless"][0]
 
 
 def test_a_world_lights_by_its_mean_in_the_analytic_integrator(cases: Any) -> None:
