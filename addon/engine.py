@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 from . import core
 from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
+from .export.images import ImageCache
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
@@ -40,6 +41,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     said_in_job: ClassVar[set[str]] = set()  # warnings, cleared when a job begins; on a terminal, with a new file
     # Of the frame being rendered, a FrameCount: typing keeps what ClassVar is given, and bpy 4.5 then hangs at exit.
     frame_count: ClassVar[Any] = FrameCount()
+    images: ClassVar[Any] = ImageCache()  # of the job: Blender makes an engine for each frame
     strict: ClassVar[bool] = False  # warnings are errors
     viewport: Viewport | None = None  # of the 3D view this engine draws
 
@@ -95,7 +97,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
                 self.update_stats("", "Exporting the scene")
                 say = _say_nothing if self.is_preview else self.report
                 reporter = Reporter(say, self.said_in_job)
-                context = export_scene(native, depsgraph, reporter, self._check_cancel)
+                cache = ImageCache() if self.is_preview else self.images
+                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
             export_camera(context, self, frame)
             if self.strict:
                 context.reporter.refuse()
@@ -191,6 +194,12 @@ def _frame_ended(scene: bpy.types.Scene, *_: Any) -> None:
     count = PivotRenderEngine.frame_count
     if bpy.app.background and count.samples_done:  # none where another engine rendered, or this one failed
         print(frame_line(scene, count), flush=True)
+    PivotRenderEngine.images.sweep()
+
+
+@persistent
+def _job_ended(*_: Any) -> None:
+    PivotRenderEngine.images = ImageCache()
 
 
 _HANDLERS = {
@@ -198,6 +207,8 @@ _HANDLERS = {
     "load_post": _file_loaded,
     "render_pre": _frame_begins,
     "render_post": _frame_ended,
+    "render_complete": _job_ended,
+    "render_cancel": _job_ended,
 }
 
 

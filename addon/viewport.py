@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import core
 from .export.camera import RegionView, region_view
+from .export.images import ImageCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
@@ -36,19 +37,29 @@ class Viewport:
         self._warnings: list[str] = []  # of the scene as exported
         self._stale = True  # the scene has changed since
         self._visible: Any = None  # of the scene as exported
+        self._frame: int | None = None  # of the images in the scene; None: they are of any
         self._core: Any = None
         self._scene: Any = None  # pivot_core.Scene; None before the first export and after a fault
+        self._images = ImageCache()
         self._session: Any = None
         self._pixel_px = 1  # of the session
         self._size = (0, 0)  # of what the session shows, as are the next two
         self._view: RegionView | None = None
         self._settings: dict[str, Any] = {}
-        self._texture: Any = None  # the last picture
+        self._pixels: NDArray[np.float32] | None = None  # the last picture, until it is drawn
+        self._texture: Any = None  # the last that was drawn
 
     def update(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
-        """Take notice of an edit. The next draw exports it, once there is a picture of the edit before."""
-        if any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph) != self._visible:
+        """Export an edit, once there is a picture of the edit before: until then draws ask to be called again.
+
+        Only here may Blender's data be written to, which reading some images needs.
+        """
+        moved_on = self._frame not in {None, depsgraph.scene.frame_current}
+        if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph) != self._visible:
             self._stale = True
+        with _faults_shown(engine):
+            if self._stale and not self._awaits_coarse_picture(self._take_picture(0.0)):
+                self._export(depsgraph)
         engine.tag_redraw()
 
     def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
@@ -57,11 +68,11 @@ class Viewport:
             finished = self._take_picture(0.0)
             scene = depsgraph.scene
             size = (context.region.width, context.region.height)
-            if not self._awaits_coarse_picture(finished):
-                if self._stale:
-                    self._export(depsgraph)
-                if self._scene is None:
-                    return
+            if self._stale:
+                if not self._awaits_coarse_picture(finished):
+                    engine.tag_update()
+                finished = False
+            elif self._scene is not None and not self._awaits_coarse_picture(finished):
                 view = region_view(context.region_data, context.space_data)
                 settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
                 if self._session is None or not self._shows(size, view, settings):
@@ -72,6 +83,10 @@ class Viewport:
                 elif finished and self._pixel_px > 1:
                     self._start(scene, 1)
                     finished = False
+            if self._session is None:
+                return
+            if self._pixels is not None:
+                self._texture, self._pixels = _texture(self._pixels), None
             if self._texture is not None:
                 _draw_texture(engine, scene, self._texture, size)
             samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
@@ -86,7 +101,10 @@ class Viewport:
         self._core = core.load()
         reporter = Reporter(_print_warning, self._said)
         self._warnings = reporter.warnings
-        self._scene = export_scene(self._core, depsgraph, reporter, lambda: None).scene
+        exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images)
+        self._images.sweep()
+        self._scene = exported.scene
+        self._frame = exported.images.frame if exported.images.shows_frames else None
 
     def _take_picture(self, wait_s: float) -> bool:
         """Take over what the session has done within wait_s, and return whether it has ended."""
@@ -94,7 +112,7 @@ class Viewport:
             return False
         finished = self._session.wait(wait_s)
         if self._session.samples_done > 0:
-            self._texture = _texture(self._session.read("Combined"))
+            self._pixels = self._session.read("Combined")
         return finished
 
     def _awaits_coarse_picture(self, finished: bool) -> bool:

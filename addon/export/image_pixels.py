@@ -7,7 +7,7 @@ scene/image.cpp and scene/image_oiio.cpp, [C5] is Cycles 5.1, util/image_metadat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,12 +48,14 @@ def _is_premultiplied(image: Any) -> bool:
 
 
 def _is_read_by_cycles(image: Any) -> bool:
-    return image.source != "GENERATED" and not image.packed_file
+    return image.source not in {"GENERATED", "MOVIE"} and not image.packed_file
 
 
-def stored_pixels(image: Any, warn: Callable[[str], None]) -> Pixels | None:
+def stored_pixels(image: Any) -> Pixels | None:
     """None where it cannot be read. Leaves Blender's own copy of a file's pixels as it was, read or not."""
     was_loaded = image.has_data
+    if was_loaded and not image.is_dirty and image.source == "FILE" and not image.packed_file:
+        image.buffers_free()  # the file may have changed since
     width, height = image.size
     channels = image.channels
     if width * height * channels == 0:
@@ -65,7 +67,7 @@ def stored_pixels(image: Any, warn: Callable[[str], None]) -> Pixels | None:
     if not was_loaded and not image.is_dirty and image.source == "FILE":
         image.buffers_free()  # and now nothing may be asked of the image that reads it again
     if not is_float:
-        return _stored_bytes(image, values, warn)
+        return _stored_bytes(image, values)
     _clear_nonsense(values)
     return _stored_words(image, values) if is_words else _stored_floats(image, values)
 
@@ -76,18 +78,14 @@ def _chunks(texels: NDArray[Any]) -> Iterator[slice]:
     return (slice(first, first + rows) for first in range(0, len(texels), rows))
 
 
-def _stored_bytes(image: Any, values: NDArray[np.float32], warn: Callable[[str], None]) -> Pixels:
+def _stored_bytes(image: Any, values: NDArray[np.float32]) -> Pixels:
     """values: bytes / 255, as the file has them; overwritten, since they are four times the size of what is made."""
     channels = values.shape[2]
     if channels == 4 and _is_premultiplied(image):
         values[..., :3] *= values[..., 3:]
     space = image.colorspace_settings.name
     if channels >= 3 and not image.colorspace_settings.is_data and space not in {"sRGB", *_UNCONVERTED}:
-        try:
-            return _converted(image, values, space)
-        except AttributeError:  # Blender lets nobody set a property while it draws
-            warn(f"in the 3D view the color space {space} is not supported, it is shown as sRGB")
-            space = "sRGB"
+        return _converted(image, values, space)
     numbers = values.ravel()
     texels = numbers.view(np.uint8)[: numbers.size]
     for part in _chunks(numbers):

@@ -15,7 +15,7 @@ from ..report import RenderError, Reporter, naming
 from .attributes import is_of_mesh, mesh_attributes, object_attributes
 from .census import report_left_out
 from .context import Context
-from .images import ImageTable
+from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable
@@ -45,13 +45,15 @@ def export_scene(
     depsgraph: bpy.types.Depsgraph,
     reporter: Reporter,
     check_cancel: Callable[[], None],
+    cache: ImageCache | None = None,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. Keeps nothing of the depsgraph but in the Context returned.
-    Raises RenderError naming the object at fault.
+    check_cancel: called between objects, may raise. cache: of exports before and to come. Keeps nothing of the
+    depsgraph but in the Context returned. Raises RenderError naming the object at fault.
     """
-    context = Context(core, core.Scene(), depsgraph, reporter, ImageTable(core, depsgraph.scene_eval.frame_current))
+    images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
+    context = Context(core, core.Scene(), depsgraph, reporter, images)
     _report_settings(context)
     export_world(context)
     _Exporter(context, check_cancel).export_objects()

@@ -26,6 +26,7 @@ def test_what_is_missing_is_said(cases: Any) -> None:
     assert "image 'saved.png'" in said["missing_file"][0]
     assert "material 'picture', node 'Image Texture': it has no image" in said["no_image"][0]
     assert "tile.1011.png' is not there" in said["tiles_without_one"][0]
+    assert "supported where its first layer is of R, G, B and A" in cases["colorless"][0]
 
 
 def test_a_world_lights_by_its_mean_in_the_analytic_integrator(cases: Any) -> None:
@@ -36,3 +37,30 @@ def test_a_world_lights_by_its_mean_in_the_analytic_integrator(cases: Any) -> No
 
 def test_blender_keeps_no_pixels_that_it_did_not_have(cases: Any) -> None:
     assert cases["kept"] == {"has_data": False, "images": 1}
+
+
+@pytest.fixture(scope="module")
+def cache(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return host.run("image_cache_cases", tmp_path_factory.mktemp("image_cache"))
+
+
+def test_images_are_read_when_they_have_changed(cache: Any) -> None:
+    for name, (first, again, after) in cache["edits"].items():
+        assert first is not None, name
+        assert again is None, name
+        assert (after is None) == (name == "nothing"), name
+        if name not in {"nothing", "alpha mode", "color space"}:
+            assert after > first, name
+
+
+def test_an_animation_reads_an_image_once(cache: Any) -> None:
+    read = cache["animation"]
+    assert len(read["file"]) == 1
+    assert len(set(read["sequence"])) == len(read["sequence"]) == 3
+    assert len(read["file again"]) == len(read["sequence again"]) == 1  # nothing was kept
+
+
+def test_memory_of_an_image_that_is_not_shown_is_free(cache: Any) -> None:
+    before, with_it, after = cache["memory"]
+    assert with_it - before > 60
+    assert after - before < 10

@@ -60,3 +60,12 @@ def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: An
         "1 thing is not shown as set: light 'fill': lights without shadows are not supported, it casts them"
     ]
     assert motion["output"].count("Warning: Pivot: light 'fill'") == 1
+
+
+def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:
+    seen = in_a_window("viewport_image_case", tmp_path)
+    still, first_frame, second_frame = seen["expected"]
+    assert sorted(seen["opened"]) == sorted([still, first_frame])
+    assert seen["moved"] == []
+    assert seen["alpha mode"] == [still]
+    assert seen["frame"] == [second_frame]

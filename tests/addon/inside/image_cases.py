@@ -25,7 +25,8 @@ def main(folder: Path) -> Any:
     vary.
     """
     pictures = {name: _compared(make, folder) for name, make in CASES.items()}
-    return {"pictures": pictures, "analytic": _analytic(folder), "kept": _kept(folder)}
+    colorless = _compared(_layers_without_colors, folder)["said"]
+    return {"pictures": pictures, "colorless": colorless, "analytic": _analytic(folder), "kept": _kept(folder)}
 
 
 def _analytic(folder: Path) -> Any:
@@ -367,6 +368,93 @@ def _tiled(missing: int) -> Callable[[Any, Path], Any]:
 
 CASES["tiles"] = _tiled(0)
 CASES["tiles_without_one"] = _tiled(1011)
+
+
+@case
+def _tiles_packed(tree: Any, folder: Path) -> None:
+    _tiled(0)(tree, folder)
+    node = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+    node.image.pack()
+    _files(folder, ("tile.1002.png", "tile.1001.png", "tile.1011.png"))  # which are not to be read
+
+
+def _written(folder: Path, kind: str, **settings: Any) -> Path:
+    """What Cycles renders of a world that is another color in each of four frames, in one file."""
+    scene = bpy.context.scene
+    keyed = parts.world((0, 0, 0)).node_tree.nodes["Background"].inputs["Color"]
+    for frame in range(1, 5):
+        keyed.default_value = (frame / 8, 0.3, 1 - frame / 8, 1)
+        keyed.keyframe_insert("default_value", frame=frame)
+    parts.size(SIZE, SIZE)
+    parts.camera()
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
+    scene.view_settings.view_transform = "Standard"
+    image_settings = scene.render.image_settings
+    if hasattr(image_settings, "media_type"):
+        image_settings.media_type = "VIDEO" if kind == "FFMPEG" else "MULTI_LAYER_IMAGE"
+    image_settings.file_format = kind
+    for name, value in settings.items():
+        setattr(scene.render.ffmpeg if kind == "FFMPEG" else image_settings, name, value)
+    bpy.context.view_layer.use_pass_z = bpy.context.view_layer.use_pass_normal = True
+    scene.frame_start, scene.frame_end = 1, 4
+    scene.render.dither_intensity = 0
+    scene.render.filepath = str(folder / ("written.avi" if kind == "FFMPEG" else "written.exr"))
+    bpy.ops.render.render(animation=kind == "FFMPEG", write_still=True)
+    if hasattr(image_settings, "media_type"):
+        image_settings.media_type = "IMAGE"
+    scene.world = None
+    bpy.data.objects.remove(scene.camera)
+    return Path(scene.render.filepath)
+
+
+def _movie(scene_frame: int, **user: Any) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, folder: Path) -> None:
+        path = _written(folder, "FFMPEG", format="AVI", codec="FFV1")
+        image = bpy.data.images.load(str(path))
+        assert image.source == "MOVIE"
+        node = _texture(tree, image)
+        _varied(tree, node)
+        for name, value in ({"frame_duration": 4, "frame_start": 1} | user).items():
+            setattr(node.image_user, name, value)
+        bpy.context.scene.frame_set(scene_frame)
+
+    return make
+
+
+def _varied(tree: Any, node: Any) -> None:
+    """What is even over the square gets a gradient."""
+    coordinate = tree.nodes.new("ShaderNodeTexCoord")
+    emission = next(n for n in tree.nodes if n.type == "EMISSION")
+    tree.links.new(coordinate.outputs["Generated"], emission.inputs["Strength"])
+
+
+CASES["movie"] = _movie(3)
+CASES["movie_cyclic"] = _movie(6, use_cyclic=True)
+
+
+def _layers(packed: bool, **settings: Any) -> Callable[[Any, Path], Any]:
+    def make(tree: Any, folder: Path) -> None:
+        image = bpy.data.images.load(str(_written(folder, "OPEN_EXR_MULTILAYER", **settings)))
+        if packed:
+            image.pack()
+        _varied(tree, _texture(tree, image))
+
+    return make
+
+
+CASES["layers"] = _layers(False)
+if bpy.app.version >= (4, 0):  # Debian's Cycles shows it in pink
+    CASES["layers_packed"] = _layers(True)
+CASES["layers_piz"] = _layers(False, exr_codec="PIZ")
+if "use_exr_interleave" in bpy.types.ImageFormatSettings.bl_rna.properties:
+    CASES["layers_interleaved"] = _layers(False, use_exr_interleave=True)
+
+
+def _layers_without_colors(tree: Any, folder: Path) -> None:
+    """The file's layer is of B, G, R and U, which no Blender writes."""
+    path = _written(folder, "OPEN_EXR_MULTILAYER")
+    path.write_bytes(path.read_bytes().replace(b"Combined.A\0", b"Combined.U\0"))
+    _texture(tree, bpy.data.images.load(str(path)))
 
 
 @case
