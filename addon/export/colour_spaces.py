@@ -17,16 +17,14 @@ Floats = NDArray[np.float32]
 def scene_linear(colours: Floats, space: str) -> Floats:
     """colours (H, W, 3), as they are encoded."""
     data = _open_exr(colours)
-    image = bpy.data.images.new("Pivot's colours", 1, 1, float_buffer=True)
-    try:
+    with bpy.data.temp_data() as aside:
+        image = aside.images.new("colours", 1, 1, float_buffer=True)
         image.pack(data=data, data_len=len(data))
         image.source = "FILE"
         image.colorspace_settings.name = space
         height, width = colours.shape[:2]
         values = np.empty((height, width, image.channels), np.float32)
         image.pixels.foreach_get(values.ravel())
-    finally:
-        bpy.data.images.remove(image)
     return values[..., :3]
 
 

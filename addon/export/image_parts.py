@@ -93,35 +93,31 @@ def _file_state(path: str) -> tuple[int, int] | None:
 @contextmanager
 def opened(image: Any, part: Part) -> Iterator[Any]:
     """A part as an image with the image's settings; None where there is no such file. Raises ValueError, of a layer."""
-    other = _opened(image, part)
-    try:
-        yield other
-    finally:
-        if other is not None and other != image:
-            bpy.data.images.remove(other)
+    with bpy.data.temp_data() as aside:  # from Blender 5.2 on, a render that changes its own data crashes
+        yield _opened(image, part, aside)
 
 
-def _opened(image: Any, part: Part) -> Any:
+def _opened(image: Any, part: Part, aside: bpy.types.BlendData) -> Any:
     if part.packed is not None:
-        return _image_of(part.packed.data, image)
+        return _image_of(part.packed.data, image, aside)
     layer = _first_layer(image, part)
     if layer is not None:
-        return _image_of(layer, image)
+        return _image_of(layer, image, aside)
     if part.is_own:
         return image
     try:
-        other = bpy.data.images.load(part.path, check_existing=False)
+        other = aside.images.load(part.path, check_existing=False)
     except RuntimeError:
         return None
     if other.source == "MOVIE":
-        _show_frame(other, part.frame)  # and Blender says now what its color space is
+        _show_frame(other, part.frame, aside)  # and Blender says now what its color space is
     _take_settings(other, image)
     return other
 
 
-def _image_of(data: bytes, image: Any) -> Any:
+def _image_of(data: bytes, image: Any, aside: bpy.types.BlendData) -> Any:
     """data: a file's."""
-    other = bpy.data.images.new("Pivot's part", 1, 1)
+    other = aside.images.new("part", 1, 1)
     other.pack(data=data, data_len=len(data))
     other.source = "FILE"
     _take_settings(other, image)
@@ -139,15 +135,12 @@ def _first_layer(image: Any, part: Part) -> bytes | None:
     return None
 
 
-def _show_frame(movie: Any, frame: int) -> None:
+def _show_frame(movie: Any, frame: int, aside: bpy.types.BlendData) -> None:
     """Blender gives the pixels of the frame that was looked up last."""
-    texture = bpy.data.textures.new("Pivot's frame", "IMAGE")
-    try:
-        texture.image = movie
-        texture.image_user.frame_current = frame
-        texture.evaluate((0, 0, 0))
-    finally:
-        bpy.data.textures.remove(texture)
+    texture = aside.textures.new("frame", "IMAGE")
+    texture.image = movie
+    texture.image_user.frame_current = frame
+    texture.evaluate((0, 0, 0))
 
 
 def _take_settings(image: Any, other: Any) -> None:
