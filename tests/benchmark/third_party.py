@@ -4,10 +4,10 @@
 
 320 x 180, four bounces, Blender's default pixel filter, no clamping, no denoiser; Cycles 256 samples, Pivot 64. What
 has no camera gets one around its bounding box, what has no light a sun, a sphere light and a grey world; of a library
-of materials each is worn by a ball. Prints for each the FLIP of the pictures as a screen shows them, exposed so that
-Cycles' mean is a mid grey, the ratio of their means, Pivot over Cycles, and each kind of Pivot's warnings once with its
-count. Pictures are side by side, Cycles' left, in build/third_party/pictures. The files are Debian's and PyPI's
-(third_party_files.py), fetched there.
+of materials each is worn by a ball. Prints a table, that of third_party.md: the FLIP of the pictures as a screen shows
+them, exposed so that Cycles' mean is a mid grey, the ratio of their means, Pivot over Cycles, what was added, and each
+kind of Pivot's warnings once with its count. Pictures are side by side, Cycles' left, in build/third_party/pictures.
+The files are Debian's and PyPI's (third_party_files.py), fetched there.
 """
 
 from __future__ import annotations
@@ -73,8 +73,9 @@ def compare(name: str, cycles: Picture, pivot: Picture) -> dict[str, float]:
 
 
 def kinds(warnings: list[str]) -> list[str]:
-    """Each warning without the names in it, once, and how many there were."""
-    counts = collections.Counter(re.sub(r"'[^']*'", "'...'", warning) for warning in warnings)
+    """Each warning without whose it is and the names in it, once, and how many there were."""
+    said = (re.sub(r"^(\w+ '[^']*'(, )?)+: ", "", warning) for warning in warnings)
+    counts = collections.Counter(re.sub(r"'[^']*'", "'...'", warning) for warning in said)
     return [f"{count} x {kind}" for kind, count in counts.most_common()]
 
 
@@ -87,23 +88,21 @@ def main() -> None:
     if host is None:
         parser.error(f"{arguments.blender} is no Blender and has no bpy")
     PICTURES.mkdir(parents=True, exist_ok=True)
-    print(f"Blender {host}\n{'file':34} {'FLIP':>6} {'P / C':>6}  added")
+    print(f"Blender {host}\n\n| file | FLIP | P / C | added | warnings |\n|---|---|---|---|---|")
     figures = []
     for file in third_party_files():
         if not any(part in str(file) for part in arguments.only):
             continue
         pictures, said = render(host, file)
         found = compare(file.name, pictures["cycles"], pictures["pivot"]) if len(pictures) == 2 else None
-        cells = f"{found['flip']:6.3f} {found['ratio']:6.3f}" if found else f"{'-':>6} {'-':>6}"
-        print(f"{file.name:34} {cells}  {', '.join(said['added'])}")
-        for line in ([said["fault"]] if "fault" in said else []) + kinds(said["warnings"]):
-            print(f"    {line}")
-        sys.stdout.flush()
+        cells = f"{found['flip']:.3f} | {found['ratio']:.3f}" if found else "- | -"
+        lines = ([said["fault"]] if "fault" in said else []) + kinds(said["warnings"])
+        print(f"| {file.name} | {cells} | {', '.join(said['added'])} | {'<br>'.join(lines)} |", flush=True)
         figures += [found] if found else []
     if figures:
         flips, ratios = ([found[name] for found in figures] for name in ("flip", "ratio"))
         within = np.mean(np.abs(np.array(ratios) - 1) < 0.03)
-        print(f"{len(figures)} files: median FLIP {np.median(flips):.3f}, mean {np.mean(flips):.3f}; ", end="")
+        print(f"\n{len(figures)} files: median FLIP {np.median(flips):.3f}, mean {np.mean(flips):.3f}; ", end="")
         print(f"{within:.0%} of the means within 3 % of Cycles'")
 
 
