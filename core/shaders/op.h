@@ -3,11 +3,12 @@
 //
 //     double_of(Batch x)                                 -> op<double_of>("double"): one number in, one out
 //     shifted(const Place& place, const Vec3b& by)       -> three numbers in, three out; reads where it is
-//     noise(const OpSettings& settings, const Vec3b& at) -> with numbers that are the same wherever it runs
+//     noise(Settings<2> settings, const Vec3b& at)       -> with two numbers that are the same wherever it runs
 //     texel(const Image& image, const Vec2b& uv)         -> looks an image up
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -25,10 +26,18 @@ struct OpSettings {
     std::shared_ptr<const Image> image;
 };
 
+/// So many numbers of an op's settings; or as many and more.
+template <std::size_t n>
+using Settings = std::span<const float, n>;
+template <std::size_t n>
+struct SettingsFrom : std::span<const float> {};
+
 struct OpKind {
     std::string_view name;
     std::uint32_t input_count, output_count;  ///< numbers: a vector is three
-    bool reads_place;                         ///< else it depends on its inputs alone
+    std::uint32_t setting_count;
+    bool takes_more_settings;
+    bool reads_place;  ///< else it depends on its inputs alone
     bool reads_image;
     void (*run)(const Batch* inputs, const OpSettings& settings, const Place& place, Batch* outputs);
 };
@@ -50,6 +59,17 @@ template <class... Parts>
 inline constexpr std::uint32_t width_of<std::tuple<Parts...>> = (width_of<Parts> + ... + 0);
 
 template <class T>
+inline constexpr std::uint32_t settings_of = 0;
+template <std::size_t n>
+inline constexpr std::uint32_t settings_of<Settings<n>> = n;
+template <std::size_t n>
+inline constexpr std::uint32_t settings_of<SettingsFrom<n>> = n;
+template <class T>
+inline constexpr bool is_open_ended = false;
+template <std::size_t n>
+inline constexpr bool is_open_ended<SettingsFrom<n>> = true;
+
+template <class T>
 T read(const Batch* inputs, const OpSettings& settings, const Place& place) {
     using Bare = std::remove_cvref_t<T>;
     if constexpr (std::is_same_v<Bare, Batch>) return inputs[0];
@@ -57,7 +77,10 @@ T read(const Batch* inputs, const OpSettings& settings, const Place& place) {
         return make_point<width_of<Bare>>([&](std::size_t i) { return inputs[i]; });
     if constexpr (std::is_same_v<Bare, Vec2b>) return Vec2b(inputs[0], inputs[1]);
     if constexpr (std::is_same_v<Bare, Vec3b>) return Vec3b(inputs[0], inputs[1], inputs[2]);
-    if constexpr (std::is_same_v<Bare, OpSettings>) return settings;
+    if constexpr (is_open_ended<Bare>)
+        return Bare{settings.numbers};
+    else if constexpr (settings_of<Bare> != 0)
+        return Bare(settings.numbers.data(), settings_of<Bare>);
     if constexpr (std::is_same_v<Bare, Image>) return *settings.image;
     if constexpr (std::is_same_v<Bare, Place>) return place;
 }
@@ -77,11 +100,13 @@ using Read = std::conditional_t<width_of<std::remove_cvref_t<T>> != 0, std::remo
 
 template <auto function, class Result, class... Parameters>
 constexpr OpKind make_op(std::string_view name) {
-    static_assert(((width_of<std::remove_cvref_t<Parameters>> != 0 || std::is_same_v<Parameters, const OpSettings&> ||
+    static_assert(((width_of<std::remove_cvref_t<Parameters>> != 0 || settings_of<Parameters> != 0 ||
                     std::is_same_v<Parameters, const Image&> || std::is_same_v<Parameters, const Place&>)&&...));
     return {name,
             (width_of<std::remove_cvref_t<Parameters>> + ... + 0),
             width_of<Result>,
+            (settings_of<Parameters> + ... + 0),
+            (is_open_ended<Parameters> || ...),
             (std::is_same_v<Parameters, const Place&> || ...),
             (std::is_same_v<Parameters, const Image&> || ...),
             [](const Batch* inputs, const OpSettings& settings, const Place& place, Batch* outputs) {

@@ -19,6 +19,14 @@ const Place& nowhere() {
     return place;
 }
 
+void require_settings(const OpKind& kind, const OpSettings& settings) {
+    const std::size_t count = settings.numbers.size();
+    if (count == kind.setting_count || (count > kind.setting_count && kind.takes_more_settings)) return;
+    throw std::invalid_argument("op '" + std::string(kind.name) + "': of settings it takes " +
+                                std::to_string(kind.setting_count) + (kind.takes_more_settings ? " or more" : "") +
+                                ", not " + std::to_string(count));
+}
+
 }  // namespace
 
 std::uint32_t Program::add(const std::string& name, std::vector<Input> inputs, OpSettings settings,
@@ -30,6 +38,7 @@ std::uint32_t Program::add(const std::string& name, std::vector<Input> inputs, O
         fail("it takes " + std::to_string(kind->input_count) + " numbers, not " + std::to_string(inputs.size()));
     if (inputs.size() > max_inputs) fail("it has too many inputs");
     if (neighbour >= 3 + 2 * bump_widths_.size()) fail("there is no neighbour " + std::to_string(neighbour));
+    require_settings(*kind, settings);
     if (kind->reads_image && !settings.image) fail("it needs an image");
     for (const Input& input : inputs)
         if (input.register_index != Input::constant && input.register_index >= register_count_)
@@ -75,6 +84,7 @@ std::vector<float> Program::run_nowhere() const {
 }
 
 std::vector<Batch> evaluate(const OpKind& kind, std::span<const Batch> inputs, const OpSettings& settings) {
+    require_settings(kind, settings);
     std::vector<Batch> outputs(kind.output_count);
     kind.run(inputs.data(), settings, nowhere(), outputs.data());
     return outputs;

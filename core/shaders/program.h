@@ -53,7 +53,8 @@ class Program {
     bool needs_neighbours_ = false;
 };
 
-/// What an op makes of constants. inputs, and what is returned: by number, then by lane.
+/// What an op makes of constants. inputs, and what is returned: by number, then by lane. Throws std::invalid_argument
+/// that names the op if the settings are too few or too many.
 std::vector<Batch> evaluate(const OpKind& kind, std::span<const Batch> inputs, const OpSettings& settings);
 
 }  // namespace pivot

@@ -65,7 +65,7 @@ def test_numbers_of_a_program_are_those_of_a_material() -> None:
 def test_an_attribute_is_interpolated(domain: str, integrator: str) -> None:
     program = Program()
     scene = pivot_core.Scene()
-    uv = program.add("attribute", [], [scene.attribute_id("uv")])
+    uv = program.add("attribute", [], [scene.attribute_id("uv"), 1.0])
     material = pivot_core.Shader(pivot_core.Material(), program, {"emission": [uv, uv + 1, -1]})
     values = {"uv": np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)}
     picture = render(
@@ -194,6 +194,10 @@ def test_a_bright_patch_of_sky_is_sampled() -> None:
 WRONG: dict[str, Callable[[], object]] = {
     "there is no op 'math_wonder'": lambda: Program().add("math_wonder", []),
     "it takes 2 numbers, not 1": lambda: Program().add("math_add", [(-1, 1.0)]),
+    "of settings it takes 1, not 0": lambda: Program().add("magic", [(-1, 0.0)] * 5),
+    "of settings it takes 6 or more, not 5": lambda: pivot_core.run_op(
+        "table", np.zeros((1, 1), np.float32), [0.0] * 5
+    ),
     "register 3 holds nothing yet": lambda: Program().add("math_add", [(3, 0.0), (-1, 1.0)]),
     "there is no neighbour 3": lambda: Program().add("position", [], [], 3),
     "what may vary of this material is normal": lambda: shader(pivot_core.Material(), gloss=(1.0,)),

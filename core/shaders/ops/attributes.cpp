@@ -24,8 +24,8 @@ struct Read {
 };
 
 /// settings: the attribute's id.
-Read of_mesh(const OpSettings& settings, const Place& place) {
-    const auto id = static_cast<std::uint32_t>(settings.numbers[0]);
+Read of_mesh(Settings<2> settings, const Place& place) {
+    const auto id = static_cast<std::uint32_t>(settings[0]);
     const Lanes u = store(place.barycentric.x), v = store(place.barycentric.y);
     Read read;
     for (std::size_t lane = 0; lane < batch_size; ++lane) {
@@ -46,8 +46,8 @@ Read of_mesh(const OpSettings& settings, const Place& place) {
     return read;
 }
 
-Read of_object(const OpSettings& settings, const Place& place) {
-    const auto id = static_cast<std::uint32_t>(settings.numbers[0]);
+Read of_object(Settings<2> settings, const Place& place) {
+    const auto id = static_cast<std::uint32_t>(settings[0]);
     Read read;
     for (std::size_t lane = 0; lane < batch_size; ++lane) {
         const ObjectFacts* object = place.lanes.objects[lane];
@@ -62,9 +62,9 @@ Read of_object(const OpSettings& settings, const Place& place) {
 
 /// settings: the id, and the fourth number where there is none. Gives three numbers, the fourth, and them as one.
 template <auto read>
-std::tuple<Vec3b, Batch, Batch> attribute(const OpSettings& settings, const Place& place) {
+std::tuple<Vec3b, Batch, Batch> attribute(Settings<2> settings, const Place& place) {
     const Read found = read(settings, place);
-    return {found.vector(), found.last(settings.numbers[1]), found.number()};
+    return {found.vector(), found.last(settings[1]), found.number()};
 }
 
 /// A number that the objects have, 0 in the world.

@@ -18,13 +18,13 @@ Batch brick_noise(const IndexBatch& row, const IndexBatch& brick) {
 /// How much a brick is of its second colour, and how much mortar there is. settings: by what part of a brick every
 /// how-many-eth row is offset, and by how much it is squashed every how-many-eth row: offset, its frequency, squash,
 /// its frequency.
-Vec2b brick(const OpSettings& settings, const Vec2b& at, Batch mortar_size, Batch mortar_smooth, Batch bias,
-            Batch width, Batch height) {
+Vec2b brick(Settings<4> settings, const Vec2b& at, Batch mortar_size, Batch mortar_smooth, Batch bias, Batch width,
+            Batch height) {
     const Batch zero(0.0f), one(1.0f);
     const Batch row = floor(at.y / height);
     const auto is_nth = [&](float n) { return modulo(row, Batch(n)) == zero; };
-    width *= select(is_nth(settings.numbers[3]), Batch(settings.numbers[2]), one);
-    const Batch along = at.x + select(is_nth(settings.numbers[1]), width * Batch(settings.numbers[0]), zero);
+    width *= select(is_nth(settings[3]), Batch(settings[2]), one);
+    const Batch along = at.x + select(is_nth(settings[1]), width * Batch(settings[0]), zero);
     const Batch number = floor(along / width);
     const Batch x = along - width * number, y = at.y - height * row;
     const Batch tint = clamp01(brick_noise(to_index(row), to_index(number)) + bias);

@@ -39,21 +39,21 @@ std::tuple<Vec3b, Batch, Batch> camera_data(const Place& place) {
 }
 
 /// settings: a row-major 3 x 4 matrix, which takes the place in world space to another.
-Vec3b position_in(const OpSettings& settings, const Place& place) {
+Vec3b position_in(Settings<12> settings, const Place& place) {
     const auto row = [&](std::size_t first) {
-        const auto m = [&](std::size_t i) { return Batch(settings.numbers[first + i]); };
+        const auto m = [&](std::size_t i) { return Batch(settings[first + i]); };
         return m(0) * place.position.x + m(1) * place.position.y + m(2) * place.position.z + m(3);
     };
     return {row(0), row(4), row(8)};
 }
 
 /// 1 near the triangle's edges. settings: whether the size counts in pixels. [Cycles 4.5 svm/wireframe.h]
-Batch wireframe(const OpSettings& settings, const Place& place, Batch size) {
+Batch wireframe(Settings<1> settings, const Place& place, Batch size) {
     if (place.lanes.is_world()) return Batch(0.0f);
     const auto& [a, b, c] =
         std::tie(place.lanes.corners.corner_a, place.lanes.corners.corner_b, place.lanes.corners.corner_c);
     Batch width = size;
-    if (settings.numbers[0] > 0.0f) {
+    if (settings[0] > 0.0f) {
         const auto seen = [&](const Vec3b& d) { return length(d - dot(d, place.lanes.wo) * place.lanes.wo); };
         const auto [x, y] = bump_directions(place.normal_geometric);
         width = size * place.lanes.footprint_m * Batch(0.5f) * (seen(x) + seen(y));

@@ -9,35 +9,35 @@ namespace {
 
 const Batch zero(0.0f), one(1.0f), half(0.5f);
 
-ImageLookup how(const OpSettings& settings) {
-    return {.interpolation = static_cast<Interpolation>(settings.numbers[0]),
-            .extension = static_cast<Extension>(settings.numbers[1]),
-            .unassociate = settings.numbers[2] != 0.0f,
-            .closed_u = settings.numbers[3] != 0.0f};
+ImageLookup how(Settings<4> settings) {
+    return {.interpolation = static_cast<Interpolation>(settings[0]),
+            .extension = static_cast<Extension>(settings[1]),
+            .unassociate = settings[2] != 0.0f,
+            .closed_u = settings[3] != 0.0f};
 }
 
 /// settings: Interpolation, Extension, whether colours are wanted without alpha, whether u = 0 and 1 are one place.
-std::tuple<Vec3b, Batch> whole_image(const Image& image, const OpSettings& settings, const Vec2b& uv, const Vec2b& uv_x,
+std::tuple<Vec3b, Batch> whole_image(const Image& image, Settings<4> settings, const Vec2b& uv, const Vec2b& uv_x,
                                      const Vec2b& uv_y) {
     return image.lookup(how(settings), uv, uv_x, uv_y);
 }
 
 /// One of the tiles that a picture is made of, beside what the others gave. settings: as above, then which tile it is
 /// along u and v. [Cycles 4.5 kernel/svm/image.h svm_node_tex_image]
-std::tuple<Vec3b, Batch> image_tile(const Image& image, const OpSettings& settings, const Vec2b& uv, const Vec2b& uv_x,
+std::tuple<Vec3b, Batch> image_tile(const Image& image, Settings<6> settings, const Vec2b& uv, const Vec2b& uv_x,
                                     const Vec2b& uv_y, const Vec3b& color, const Batch& alpha) {
-    const Vec2b tile(Batch(settings.numbers[4]), Batch(settings.numbers[5]));
+    const Vec2b tile{Batch(settings[4]), Batch(settings[5])};
     const BatchMask inside = trunc(uv.x) == tile.x && trunc(uv.y) == tile.y;
     if (!any(inside)) return {color, alpha};
-    const auto [c, a] = image.lookup(how(settings), uv - tile, uv_x - tile, uv_y - tile);
+    const auto [c, a] = image.lookup(how(settings.first<4>()), uv - tile, uv_x - tile, uv_y - tile);
     return {select(inside, c, color), select(inside, a, alpha)};
 }
 
 /// The six faces of a box, seen from outside and blended near its edges. settings: as above, then how far the blend
 /// reaches; the coordinate beside: along two directions.
-std::tuple<Vec3b, Batch> image_box(const Image& image, const OpSettings& settings, const Place& place, const Vec3b& at,
+std::tuple<Vec3b, Batch> image_box(const Image& image, Settings<5> settings, const Place& place, const Vec3b& at,
                                    const Vec3b& at_x, const Vec3b& at_y) {
-    const Batch blend(settings.numbers[4]), limit = half * (one + blend);
+    const Batch blend(settings[4]), limit = half * (one + blend);
     const Mat3<Batch>& linear = place.lanes.corners.world_from_object.linear;
     const Vec3b object_normal = place.normal * linear;
     Vec3b n = abs(object_normal);
@@ -47,7 +47,7 @@ std::tuple<Vec3b, Batch> image_box(const Image& image, const OpSettings& setting
     const BatchMask y_alone = n.y > limit * (n.x + n.y) && n.y > limit * (n.y + n.z);
     const BatchMask z_alone = n.z > limit * (n.x + n.z) && n.z > limit * (n.y + n.z);
     Vec3b weight(one, zero, zero);
-    if (settings.numbers[4] > 0.0f) {
+    if (settings[4] > 0.0f) {
         const auto between = [&](const Batch& a, const Batch& b) {
             return clamp01(Batch((divided(a, a + b) - half * (one - blend)) / blend));
         };
@@ -68,7 +68,7 @@ std::tuple<Vec3b, Batch> image_box(const Image& image, const OpSettings& setting
     const auto add = [&](const Batch& share, const auto& face) {
         const BatchMask seen = share > zero;
         if (!any(seen)) return;
-        const auto [c, a] = image.lookup(how(settings), face(at), face(at_x), face(at_y));
+        const auto [c, a] = image.lookup(how(settings.first<4>()), face(at), face(at_x), face(at_y));
         color += select(seen, share * c, Vec3b(zero));
         alpha += select(seen, share * a, zero);
     };

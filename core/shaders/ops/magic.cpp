@@ -6,8 +6,8 @@ namespace pivot {
 namespace {
 
 /// settings: how many steps deep, 0 to 10.
-Vec3b magic(const OpSettings& settings, const Vec3b& at, Batch scale, Batch distortion) {
-    const auto depth = static_cast<int>(settings.numbers[0]);
+Vec3b magic(Settings<1> settings, const Vec3b& at, Batch scale, Batch distortion) {
+    const auto depth = static_cast<int>(settings[0]);
     const Batch turn(2.0f * pi<float>), five = Batch(5.0f), half(0.5f);
     const Vec3b p(modulo(at.x, turn), modulo(at.y, turn), modulo(at.z, turn));
     Batch x = sin((p.x + p.y + p.z) * five * scale);

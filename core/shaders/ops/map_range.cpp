@@ -36,13 +36,12 @@ Batch map_range(Batch value, Batch from_min, Batch from_max, Batch to_min, Batch
 
 /// A curve of values at even distances. settings: where the first and the last is; whether it is linear between them,
 /// or has the one before; whether it goes on in a straight line beyond, or stays; the values, at least two.
-Batch table(const OpSettings& settings, Batch x) {
+Batch table(SettingsFrom<6> settings, Batch x) {
     constexpr std::size_t header = 4;
-    const std::vector<float>& numbers = settings.numbers;
-    const float first = numbers[0], width = numbers[1] - numbers[0];
-    const bool interpolates = numbers[2] != 0.0f, extrapolates = numbers[3] != 0.0f;
-    const float* values = numbers.data() + header;
-    const auto last_index = static_cast<std::int32_t>(numbers.size() - header) - 1;
+    const float first = settings[0], width = settings[1] - settings[0];
+    const bool interpolates = settings[2] != 0.0f, extrapolates = settings[3] != 0.0f;
+    const float* values = settings.data() + header;
+    const auto last_index = static_cast<std::int32_t>(settings.size() - header) - 1;
     const Batch last(static_cast<float>(last_index)), place = (x - Batch(first)) / Batch(width);
     // Its order keeps what is not a number within the table.
     const Batch inside = min(select(place > zero, place, zero), one) * last;

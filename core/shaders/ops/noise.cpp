@@ -9,8 +9,8 @@ namespace {
 
 /// settings: whether the noise wraps.
 template <std::size_t n>
-[[gnu::noinline]] Batch noise(const OpSettings& settings, const Point<n>& at) {
-    return perlin(at, settings.numbers[0] != 0.0f);
+[[gnu::noinline]] Batch noise(Settings<1> settings, const Point<n>& at) {
+    return perlin(at, settings[0] != 0.0f);
 }
 
 /// How much of an octave counts.
@@ -19,7 +19,7 @@ Batch share(const Batch& octaves, int octave) { return clamp01(octaves - Batch(s
 bool has_octave(const Batch& octaves, int octave) { return any(octaves > Batch(static_cast<float>(octave))); }
 
 template <std::size_t n>
-Batch fbm(const OpSettings& settings, const Point<n>& at, Batch octaves, Batch roughness, Batch lacunarity) {
+Batch fbm(Settings<1> settings, const Point<n>& at, Batch octaves, Batch roughness, Batch lacunarity) {
     Batch sum(0.0f), amplitude(1.0f), frequency(1.0f);
     for (int i = 0; has_octave(octaves, i); ++i) {
         sum += share(octaves, i) * amplitude * noise(settings, at * frequency);
@@ -31,7 +31,7 @@ Batch fbm(const OpSettings& settings, const Point<n>& at, Batch octaves, Batch r
 
 /// Within 0..1: the mean of its octaves.
 template <std::size_t n>
-Batch fbm_normalized(const OpSettings& settings, const Point<n>& at, Batch octaves, Batch roughness, Batch lacunarity) {
+Batch fbm_normalized(Settings<1> settings, const Point<n>& at, Batch octaves, Batch roughness, Batch lacunarity) {
     Batch sum(0.0f), amplitudes(0.0f), amplitude(1.0f), frequency(1.0f), result(0.0f);
     for (int i = 0; has_octave(octaves, i); ++i) {
         sum += amplitude * noise(settings, at * frequency);
@@ -44,7 +44,7 @@ Batch fbm_normalized(const OpSettings& settings, const Point<n>& at, Batch octav
 }
 
 template <std::size_t n>
-Batch multifractal(const OpSettings& settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity) {
+Batch multifractal(Settings<1> settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity) {
     Batch value(1.0f), amplitude(1.0f);
     for (int i = 0; has_octave(octaves, i); ++i) {
         value *= share(octaves, i) * amplitude * noise(settings, at) + Batch(1.0f);
@@ -55,7 +55,7 @@ Batch multifractal(const OpSettings& settings, Point<n> at, Batch octaves, Batch
 }
 
 template <std::size_t n>
-Batch hetero_terrain(const OpSettings& settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
+Batch hetero_terrain(Settings<1> settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
                      Batch offset) {
     Batch value = noise(settings, at) + offset, amplitude = roughness;
     for (int i = 1; has_octave(octaves, i); ++i) {
@@ -67,7 +67,7 @@ Batch hetero_terrain(const OpSettings& settings, Point<n> at, Batch octaves, Bat
 }
 
 template <std::size_t n>
-Batch hybrid_multifractal(const OpSettings& settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
+Batch hybrid_multifractal(Settings<1> settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
                           Batch offset, Batch gain) {
     const Batch least_weight(0.001f);
     Batch value(0.0f), amplitude(1.0f), weight(1.0f);
@@ -84,7 +84,7 @@ Batch hybrid_multifractal(const OpSettings& settings, Point<n> at, Batch octaves
 
 /// A part of an octave counts as none.
 template <std::size_t n>
-Batch ridged_multifractal(const OpSettings& settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
+Batch ridged_multifractal(Settings<1> settings, Point<n> at, Batch octaves, Batch roughness, Batch lacunarity,
                           Batch offset, Batch gain) {
     const auto ridge = [&] { return sqr(offset - abs(noise(settings, at))); };
     Batch signal = ridge(), value = signal, amplitude = roughness;

@@ -52,11 +52,11 @@ Vec3b normal_map_world(const Place& place, const Vec3b& colour, Batch strength) 
 /// Heights here and at the two places beside that the filter width tells. settings: that, whether the height is
 /// measured in object space, whether the normal is kept from mirroring below the surface. [Cycles 4.5 svm/displace.h;
 /// Mikkelsen10, Bump Mapping Unparametrized Surfaces on the GPU]
-Vec3b bump(const OpSettings& settings, const Place& place, const Vec3b& normal, const Vec3b& heights, Batch strength,
+Vec3b bump(Settings<3> settings, const Place& place, const Vec3b& normal, const Vec3b& heights, Batch strength,
            Batch distance) {
     if (place.lanes.is_world()) return normal;
-    const Batch width(settings.numbers[0]);
-    const bool in_object = settings.numbers[1] > 0.0f;
+    const Batch width(settings[0]);
+    const bool in_object = settings[1] > 0.0f;
     auto [x, y] = bump_directions(place.normal_geometric);
     x *= place.lanes.footprint_m, y *= place.lanes.footprint_m;
     const Vec3b n = in_object ? object_from_world_normal(place, normal) : normal;
@@ -69,7 +69,7 @@ Vec3b bump(const OpSettings& settings, const Place& place, const Vec3b& normal, 
     const Batch share = max(strength, zero);
     const Vec3b turned = select(dot(bumped, bumped) > zero, unit(share * bumped + (one - share) * n), n);
     const Vec3b world = in_object ? world_from_object_normal(place, turned) : turned;
-    return settings.numbers[2] > 0.0f ? reflecting_normal(place.normal_geometric, place.lanes.wo, world) : world;
+    return settings[2] > 0.0f ? reflecting_normal(place.normal_geometric, place.lanes.wo, world) : world;
 }
 
 constexpr std::array ops{

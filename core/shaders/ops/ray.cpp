@@ -8,8 +8,8 @@ namespace {
 const Batch zero(0.0f), one(1.0f);
 
 /// settings: the kinds of rays, a sum of RayKind.
-Batch ray_is(const OpSettings& settings, const Place& place) {
-    const WordBatch kinds(static_cast<std::uint32_t>(settings.numbers[0]));
+Batch ray_is(Settings<1> settings, const Place& place) {
+    const WordBatch kinds(static_cast<std::uint32_t>(settings[0]));
     return select(equal(place.lanes.ray_kind & kinds, WordBatch(0u)), zero, one);
 }
 

@@ -12,17 +12,17 @@ enum class Metric { euclidean, manhattan, chebychev, minkowski };
 enum class Feature { f1, f2, smooth_f1 };
 
 /// The numbers of an op's settings, in this order.
-struct Settings {
+struct Manner {
     Metric metric;
     bool is_normalized;
     bool is_bounded;  ///< before Blender 4.0: points that are 8 or further away are not seen
     CellHash hash;
 
-    explicit Settings(const OpSettings& settings)
-        : metric(static_cast<Metric>(settings.numbers[0])),
-          is_normalized(settings.numbers[1] != 0.0f),
-          is_bounded(settings.numbers[2] != 0.0f),
-          hash(static_cast<CellHash>(settings.numbers[3])) {}
+    explicit Manner(Settings<4> settings)
+        : metric(static_cast<Metric>(settings[0])),
+          is_normalized(settings[1] != 0.0f),
+          is_bounded(settings[2] != 0.0f),
+          hash(static_cast<CellHash>(settings[3])) {}
 };
 
 /// Distances by a metric, compared by what grows with them and is faster to get.
@@ -140,17 +140,16 @@ Found<n> find_smooth(const Cell<n>& cell, const Distances& distances, bool is_bo
 }
 
 template <std::size_t n, Feature feature>
-[[gnu::noinline]] Found<n> find(const Settings& settings, const Distances& distances, const Point<n>& at,
+[[gnu::noinline]] Found<n> find(const Manner& manner, const Distances& distances, const Point<n>& at,
                                 const Batch& smoothness, const Batch& randomness) {
-    const Cell<n> cell(at, randomness, settings.hash);
+    const Cell<n> cell(at, randomness, manner.hash);
     if constexpr (feature != Feature::smooth_f1) {
-        return find_nearest<n, feature>(cell, distances, settings.is_bounded);
+        return find_nearest<n, feature>(cell, distances, manner.is_bounded);
     } else {
         const BatchMask sharp = smoothness == Batch(0.0f);
-        const Found<n> smooth =
-            find_smooth(cell, distances, settings.is_bounded, select(sharp, Batch(1.0f), smoothness));
+        const Found<n> smooth = find_smooth(cell, distances, manner.is_bounded, select(sharp, Batch(1.0f), smoothness));
         if (!any(sharp)) return smooth;
-        const Found<n> nearest = find_nearest<n, Feature::f1>(cell, distances, settings.is_bounded);
+        const Found<n> nearest = find_nearest<n, Feature::f1>(cell, distances, manner.is_bounded);
         return {.distance = select(sharp, nearest.distance, smooth.distance),
                 .color = select(sharp, nearest.color, smooth.color),
                 .position = select(sharp, nearest.position, smooth.position)};
@@ -165,17 +164,17 @@ using Outputs = std::tuple<Batch, Vec3b, Vec3b, Batch>;
 
 /// Octaves of a feature, as a fractal's, but for positions, which are mixed.
 template <std::size_t n, Feature feature>
-Outputs voronoi(const OpSettings& op_settings, const Point<n>& at, Batch detail, Batch roughness, Batch lacunarity,
+Outputs voronoi(Settings<4> settings, const Point<n>& at, Batch detail, Batch roughness, Batch lacunarity,
                 Batch smoothness, Batch exponent, Batch randomness) {
-    const Settings settings(op_settings);
-    const Distances distances{settings.metric, exponent};
+    const Manner manner(settings);
+    const Distances distances{manner.metric, exponent};
     Batch distance(0.0f), amplitudes(0.0f), amplitude(1.0f), frequency(1.0f);
     Vec3b color(Batch(0.0f));
     Point<n> position;
     position.x.fill(Batch(0.0f));
     Batch counts(1.0f);
     for (int i = 0; any(counts > Batch(0.0f)); ++i) {
-        const Found<n> found = find<n, feature>(settings, distances, at * frequency, smoothness, randomness);
+        const Found<n> found = find<n, feature>(manner, distances, at * frequency, smoothness, randomness);
         const Batch weight = counts * amplitude;
         distance += found.distance * weight;
         color += found.color * weight;
@@ -187,7 +186,7 @@ Outputs voronoi(const OpSettings& op_settings, const Point<n>& at, Batch detail,
         amplitude *= roughness;
         counts = select(amplitude != Batch(0.0f), share(detail, i + 1), Batch(0.0f));
     }
-    if (settings.is_normalized) {
+    if (manner.is_normalized) {
         const Batch half = Batch(0.5f) + Batch(0.5f) * randomness;
         const Batch furthest =
             distances.distance<n>(distances.measure(make_point<n>([&](std::size_t) { return half; })));
@@ -234,14 +233,14 @@ template <std::size_t n>
 }
 
 template <std::size_t n>
-Batch edge(const OpSettings& op_settings, const Point<n>& at, Batch detail, Batch roughness, Batch lacunarity,
+Batch edge(Settings<4> settings, const Point<n>& at, Batch detail, Batch roughness, Batch lacunarity,
            Batch randomness) {
-    const Settings settings(op_settings);
+    const Manner manner(settings);
     const Batch furthest = Batch(0.5f) + Batch(0.5f) * randomness;
     Batch distance(8.0f), largest = furthest, amplitude(1.0f), frequency(1.0f), counts(1.0f);
     for (int i = 0; any(counts > Batch(0.0f)); ++i) {
         const Batch found =
-            distance_to_edge(Cell<n>(at * frequency, randomness, settings.hash), settings.is_bounded) / frequency;
+            distance_to_edge(Cell<n>(at * frequency, randomness, manner.hash), manner.is_bounded) / frequency;
         const Batch weight = counts * amplitude;
         const BatchMask there = weight != Batch(0.0f);
         distance = select(there, lerp(distance, min(distance, found), weight), distance);
@@ -250,13 +249,13 @@ Batch edge(const OpSettings& op_settings, const Point<n>& at, Batch detail, Batc
         amplitude *= roughness;
         counts = select(amplitude != Batch(0.0f), share(detail, i + 1), Batch(0.0f));
     }
-    return settings.is_normalized ? distance / largest : distance;
+    return manner.is_normalized ? distance / largest : distance;
 }
 
 /// Half the distance of the nearest point from its nearest one.
 template <std::size_t n>
-Batch radius(const OpSettings& op_settings, const Point<n>& at, Batch randomness) {
-    const Cell<n> cell(at, randomness, Settings(op_settings).hash);
+Batch radius(Settings<4> settings, const Point<n>& at, Batch randomness) {
+    const Cell<n> cell(at, randomness, Manner(settings).hash);
     const Batch infinite(std::numeric_limits<float>::max());
     Batch nearest = infinite;
     Point<n> offset, position;
