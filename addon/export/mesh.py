@@ -107,8 +107,8 @@ def _normals(
 ) -> tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]:
     """Those of the corners or of the vertices as Cycles has them, neither where all is flat.
 
-    Without sharp edges and custom normals its smooth faces have the normals of their vertices, to which the flat faces
-    beside them add, and which Blender's own corner normals leave out.
+    Before Blender 5.2, without sharp edges and custom normals its smooth faces have the normals of their vertices, to
+    which the flat faces beside them add, and which Blender's own corner normals leave out.
     """
     domain = _normals_domain(mesh)
     if domain == "CORNER":
@@ -126,6 +126,8 @@ def _normals(
 
 def _normals_domain(mesh: bpy.types.Mesh) -> str:
     """POINT: all corners at a vertex share its normal; FACE: all is flat; MIXED: one or the other; else CORNER."""
+    if bpy.app.version >= (5, 2):
+        return mesh.normals_domain
     if _LAZY:
         is_mixed = mesh.normals_domain == "CORNER" and not mesh.has_custom_normals and not _has_sharp_edges(mesh)
         return "MIXED" if is_mixed else mesh.normals_domain
