@@ -57,6 +57,9 @@ struct DiffuseBumpOf {
     Vec3<T> normal_smooth{T(0), T(0), T(1)};  ///< the surface's own
     T alpha2 = T(0);                          ///< of the microfacets whose shadows smooth where light ends
 
+    /// Whether the lobe's cosine is any other than that from the frame's normal.
+    Mask<T> is_turned() const { return alpha2 > T(0) || normal.z < T(1.0f - 1e-6f); }
+
     /// The lobe's cosine to light from wi, times what bumps leave of it. [Conty19] A Microfacet-Based Shadowing
     /// Function to Solve the Bump Terminator Problem; with Cycles' sides. [Cycles 4.5 closure/bsdf.h:60-102]
     T cosine(const Vec3<T>& wi_local) const {

@@ -2,6 +2,7 @@
 
 #include "core/integrators/area_light_shading.h"
 #include "core/integrators/arrival.h"
+#include "core/integrators/bump_share.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/specular_occlusion.h"
 #include "core/sampling/warp.h"
@@ -81,6 +82,23 @@ float largest_share(const Reflection& reflection, std::span<const float> totals)
     return share;
 }
 
+constexpr std::uint32_t bump_points_of_light = 16, bump_points_of_world = 64;
+
+/// What bumps leave of each lane's diffuse half.
+void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        if (!surface.has_diffuse() || !surface.bump.is_turned()) continue;
+        const auto beam = [&, &frame = point.frame](const Vec3f& wi_local) {
+            const auto* spot = std::get_if<SpotLight>(&light);
+            return spot ? spot_falloff(*spot, -dot(frame.to_world(wi_local), spot->direction)) : 1.0f;
+        };
+        const BumpShare share = bump_share(surface.bump, local_cap(light, point), bump_points_of_light, beam);
+        reflection.diffuse[i] *= share.value;
+        reflection.diffuse_error[i] += share.error;
+    }
+}
+
 /// All lights in closed form first: one that gives little of the total needs few rays for its share of the budget.
 void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                 const SurfaceBatch& batch, std::span<Gathered> gathered) {
@@ -99,6 +117,7 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
         if (!(share > 0.0f)) continue;
         if (settings.occlusion == Occlusion::ray_traced)
             reflection = seen_by_rays(shadings[k], scene, points.for_share(share));
+        apply_bumps(scene.lamps()[k], batch, reflection);
         for (std::size_t i = 0; i < batch.count; ++i) {
             if (settings.occlusion == Occlusion::bent_cone) {
                 const auto& [point, surface, bent_cone] = *batch.lanes[i];
@@ -131,8 +150,11 @@ LaneShares world_seen_by_rays(const Scene& scene, const FixedPoints& points, con
     };
     const std::uint32_t count = points.count();
     for (std::uint32_t k = 0; k < count; ++k) {
-        if (surface.has_diffuse())
-            add(sample_cosine_hemisphere(points.point(PointSet::world_diffuse, k, count)), &LaneShares::diffuse, 1.0f);
+        if (surface.has_diffuse()) {
+            const Vec3f wi_local = sample_cosine_hemisphere(points.point(PointSet::world_diffuse, k, count));
+            const bool turned = surface.bump.is_turned();
+            add(wi_local, &LaneShares::diffuse, turned ? surface.bump.cosine(wi_local) / wi_local.z : 1.0f);
+        }
         if (!surface.has_glossy()) continue;
         const float alpha = surface.alpha;
         const Vec3f wi_local =
@@ -153,7 +175,11 @@ LaneShares world_seen_by_rays(const Scene& scene, const FixedPoints& points, con
 void add_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                const ShadingPoint& shading, Gathered& gathered) {
     const auto& [point, surface, bent_cone] = shading;
-    const Rgb diffuse = scene.world() * surface.diffuse;
+    constexpr Cap<float> above{Vec3f(0.0f, 0.0f, 1.0f), 1.0f};
+    BumpShare bumped;
+    if (surface.bump.is_turned())
+        bumped = bump_share(surface.bump, above, bump_points_of_world, [](const Vec3f&) { return 1.0f; });
+    const Rgb diffuse = scene.world() * surface.diffuse * bumped.value;
     const Rgb glossy = surface.has_glossy() ? scene.world() * glossy_albedo(surface) : Rgb(0.0f);
     LaneShares shares;
     float missed = 0.0f;
@@ -165,7 +191,7 @@ void add_world(const Scene& scene, const RenderSettings& settings, const FixedPo
         gathered.error += error_of_bent_cone(diffuse, seen.diffuse) + error_of_bent_cone(glossy, seen.glossy);
         shares = {{seen.diffuse, 1.0f}, {seen.glossy, 1.0f}};
     }
-    gathered.add(diffuse * shares.diffuse.value(), Method::point_set, 0.0f);
+    gathered.add(diffuse * shares.diffuse.value(), Method::point_set, bumped.error);
     gathered.add(glossy * shares.glossy.value(), Method::point_set, error_of_albedo);
     gathered.shadow_variance += sqr(size_of(diffuse) * sqrt(std::max(shares.diffuse.variance(), missed)) +
                                     size_of(glossy) * sqrt(std::max(shares.glossy.variance(), missed)));
@@ -222,7 +248,9 @@ void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span
          ProgramMemory& memory, std::vector<HitSurface>& surfaces, std::span<Sample> samples) {
     const ArrivalBatch batch = make_arrivals(scene, arrivals, 0, memory);
     const auto points = unpack<SurfacePointOf>(batch.point);
-    const auto seen = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
+    SurfaceOf<Batch> surface = make_surface(batch.material, batch.point.wo_local);
+    surface.bump = batch.bump;
+    const auto seen = unpack<SurfaceOf>(surface);
     const auto materials = unpack<MaterialOf>(batch.material);
     for (std::size_t i = 0; i < arrivals.size(); ++i) {
         Sample& sample = samples[sample_of[i]];

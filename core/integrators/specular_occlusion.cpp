@@ -42,10 +42,13 @@ Cap<float> cap_like(const AreaLight& light, const Vec3f& position) {
 
 }  // namespace
 
-SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface) {
+Cap<float> local_cap(const Light& light, const SurfacePoint& point) {
     const auto cap = cap_from(light, point.position);
-    return seen_share_of_cap(to_local(point.frame, cap ? *cap : cap_like(std::get<AreaLight>(light), point.position)),
-                             to_local(point.frame, bent_cone), surface);
+    return to_local(point.frame, cap ? *cap : cap_like(std::get<AreaLight>(light), point.position));
+}
+
+SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface) {
+    return seen_share_of_cap(local_cap(light, point), to_local(point.frame, bent_cone), surface);
 }
 
 SeenShare seen_share_of_world(const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface) {

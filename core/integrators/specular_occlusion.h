@@ -17,7 +17,10 @@ struct SeenShare {
     float diffuse, glossy;
 };
 
-/// bent_cone: world space, of Scene::bent_cone. An area light counts as a cap of its direction and solid angle.
+/// The cap of the shading frame that a light covers, or that an area light counts as: of its direction and solid angle.
+Cap<float> local_cap(const Light& light, const SurfacePoint& point);
+
+/// bent_cone: world space, of Scene::bent_cone. An area light counts as its local_cap.
 SeenShare seen_share(const Light& light, const Cap<float>& bent_cone, const SurfacePoint& point, const Base& surface);
 
 /// The same of light from all around.

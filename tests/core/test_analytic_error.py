@@ -140,9 +140,30 @@ MATERIALS = {
 }
 
 
+def relief() -> pivot_core.Shader:
+    """Plastic of waves: its colour, its roughness and its normal vary, by several pixels each."""
+    program = pivot_core.Program()
+    x = program.add("position", [])
+
+    def wave(register: int, frequency: float, low: float, high: float) -> int:
+        """A sine of a coordinate, from low to high."""
+        angle = program.add("math_multiply", [(register, 0.0), (-1, frequency)])
+        sine = program.add("math_sine", [(angle, 0.0)])
+        middle, half = (low + high) / 2, (high - low) / 2
+        return program.add("math_multiply_add", [(sine, 0.0), (-1, half), (-1, middle)])
+
+    colour, alpha = wave(x, 3.0, 0.2, 0.8), wave(x + 1, 2.0, 0.15, 0.5)
+    leaning = [(wave(x, 4.0, -0.2, 0.2), 0.0), (wave(x + 1, 5.0, -0.2, 0.2), 0.0), (-1, 1.0)]
+    normal = program.add("vector_normalize", leaning)
+    varying = {"diffuse": [colour] * 3, "alpha": [alpha], "normal": [normal, normal + 1, normal + 2]}
+    return pivot_core.Shader(pivot_core.Material(dielectric_weight=1.0), program, varying)
+
+
 def floor(material: str, lit: Lit | None = None) -> pivot_core.Scene:
     scene = pivot_core.Scene()
-    made = scene.add_material(material, pivot_core.Material(**MATERIALS[material]))
+    made = scene.add_material(
+        material, relief() if material == "relief" else pivot_core.Material(**MATERIALS[material])
+    )
     scene.add_instances("floor", add_plane(scene), place(), [made])
     if lit:
         scene.add_light("light", lit.light)
@@ -211,7 +232,7 @@ def shadowed(name: str, material: str) -> pivot_core.Scene:
 
 
 @pytest.mark.parametrize("samples", [1, 16])
-@pytest.mark.parametrize("material", MATERIALS)
+@pytest.mark.parametrize("material", [*MATERIALS, "relief"])
 @pytest.mark.parametrize("name", ["sphere", "wide spot", "cosine spot", "sun", "rectangle", "ellipse", "world"])
 def test_error_says_how_far_off_shadows_are(name: str, material: str, samples: int) -> None:
     """One sample at the pixel's centre, and several over it: then the pixel's edges are in the error too."""
@@ -225,7 +246,8 @@ def test_error_says_how_far_off_shadows_are(name: str, material: str, samples: i
         f"{name} {material} {samples}: error {error.mean():.4f} predicted {predicted.mean():.4f} held {held.mean():.3f}"
     )
     assert held.mean() > 0.95
-    assert np.mean(predicted) < 4 * np.mean(error) + 0.01  # nor is it said of what is right
+    # Nor is it said of what is right; but that what varies smoothly over a pixel has no edges is not known.
+    assert np.mean(predicted) < (8 if material == "relief" else 4) * np.mean(error) + 0.01
 
 
 def test_one_number_of_the_budget_tightens_shadows_too() -> None:
