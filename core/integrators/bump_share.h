@@ -3,6 +3,7 @@
 
 #include "core/bsdf/base.h"
 #include "core/distributions/cap.h"
+#include "core/sampling/warp.h"
 
 namespace pivot {
 
@@ -15,15 +16,13 @@ struct BumpShare {
 template <class Radiance>
 BumpShare bump_share(const DiffuseBumpOf<float>& bump, const Cap<float>& light_local, std::uint32_t count,
                      const Radiance& radiance) {
-    constexpr float golden = 0.618034f;  // its multiples spread evenly over [0, 1)
     struct Sums {
         float bumped = 0.0f, plain = 0.0f;
         float share() const { return plain > 0.0f ? bumped / plain : 1.0f; }
     };
     std::array<Sums, 2> halves;  // of every second point, whose difference tells the error
     for (std::uint32_t i = 0; i < count; ++i) {
-        const float k = static_cast<float>(i) + 0.5f;
-        const Vec3f wi = sample(light_local, Vec2f(k / static_cast<float>(count), k * golden - std::floor(k * golden)));
+        const Vec3f wi = sample(light_local, golden_point(static_cast<float>(i), count));
         const float light = radiance(wi);
         halves[i % 2].bumped += light * bump.cosine(wi);
         halves[i % 2].plain += light * std::max(wi.z, 0.0f);

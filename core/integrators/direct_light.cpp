@@ -133,13 +133,12 @@ Arrival arrival_at(const Scene& scene, const SceneTriangle& triangle, const Area
                    const Vec3f& wi) {
     const float distance_m = dot(light.center - origin, light.normal) / dot(wi, light.normal);
     const Vec2f place = area_coordinates(light, origin + distance_m * wi);
-    Arrival arrival{.direction = wi, .hit = {}, .material = 0, .footprint_m = 0.0f, .ray_kind = diffuse_ray};
-    arrival.hit.instance = triangle.instance;
-    arrival.hit.triangle = triangle.triangle;
-    arrival.hit.barycentric = barycentric_in_triangle(place);
-    arrival.hit.distance_m = distance_m;
-    arrival.material = scene.material_of(arrival.hit);
-    return arrival;
+    const RayHit hit{.distance_m = distance_m,
+                     .instance = triangle.instance,
+                     .triangle = triangle.triangle,
+                     .barycentric = barycentric_in_triangle(place)};
+    return {
+        .direction = wi, .hit = hit, .material = scene.material_of(hit), .footprint_m = 0.0f, .ray_kind = diffuse_ray};
 }
 
 /// Makes what samples bring of lights that vary what these shine where they are sampled. They were taken for grey.
@@ -151,11 +150,13 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     std::size_t count = 0;
     const Lanes brought = store(max_component(abs(samples.radiance)));
     const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
+    const Vec3b& from = vertices.point.position;
+    const Lanes x = store(from.x), y = store(from.y), z = store(from.z);
     for (std::size_t i = 0; i < vertices.count(); ++i) {
         const auto triangle = brought[i] > 0.0f ? scene.varying_triangle(picks.light[i]) : std::nullopt;
         if (!triangle) continue;
         const auto& light = std::get<AreaLight>(scene.light(picks.light[i]));
-        arrivals[count] = arrival_at(scene, *triangle, light, vertices.lane(i).point.position, each[i].wi);
+        arrivals[count] = arrival_at(scene, *triangle, light, {x[i], y[i], z[i]}, each[i].wi);
         in_turn[count] = &arrivals[count];
         lane_of[count++] = i;
     }

@@ -1,4 +1,4 @@
-// Uniform points of the unit square mapped to disks and hemispheres.
+// Points of the unit square that are spread evenly, and uniform ones mapped to disks and hemispheres.
 //
 // [Shirley97]  A Low Distortion Map Between Disk and Square
 #pragma once
@@ -6,6 +6,13 @@
 #include "core/math/vector.h"
 
 namespace pivot {
+
+/// Number k of count points of the unit square, evenly spread: multiples of the golden ratio. Over float or batches.
+template <class T>
+Vec2<T> golden_point(const T& k, std::size_t count) {
+    const T middle = k + T(0.5f), turns = middle * T(0.618034f);
+    return {middle / T(static_cast<float>(count)), turns - floor(turns)};
+}
 
 /// Unit disk, concentric: neighbours stay neighbours [Shirley97].
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "core/sampling/warp.h"
 #include "core/shaders/surface_places.h"
 #include "core/simd/pack.h"
 
@@ -12,10 +13,8 @@ namespace {
 float mean_brightness(const Shader& shader, const Mesh& mesh, const Instance& instance, std::uint32_t triangle,
                       const CameraFacts& camera, ProgramMemory& memory) {
     const HitTriangleOf<Batch> corners = broadcast<HitTriangleOf>(triangle_of(instance, mesh, triangle));
-    const Batch lane = gather([](std::size_t i) { return static_cast<float>(i) + 0.5f; });
-    constexpr float golden = 0.618034f;  // its multiples spread evenly over [0, 1)
-    const Vec2b u(lane / Batch(batch_size), lane * Batch(golden) - floor(lane * Batch(golden)));
-    const Vec2b barycentric = barycentric_in_triangle(place_in_triangle(u));
+    const Batch lane = gather([](std::size_t i) { return static_cast<float>(i); });
+    const Vec2b barycentric = barycentric_in_triangle(place_in_triangle(golden_point(lane, batch_size)));
     const auto world = [&](const Vec3b& edge) { return corners.world_from_object.vector(edge); };
     const Vec3b across = cross(world(corners.corner_b - corners.corner_a), world(corners.corner_c - corners.corner_a));
     const Batch area2_m2 = max(length(across), tiny<Batch>);

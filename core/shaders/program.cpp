@@ -62,7 +62,8 @@ std::uint32_t Program::bump_neighbour(float filter_width) {
     return 3 + 2 * index;
 }
 
-void Program::run(Places places, std::span<Batch> registers) const {
+void Program::run(Places places, Registers& registers) const {
+    registers.resize(std::max<std::size_t>(registers.size(), register_count_));
     std::array<Batch, max_inputs> inputs;
     for (const Step& step : steps_) {
         for (std::uint32_t i = 0; i < step.kind->input_count; ++i) {

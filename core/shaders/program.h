@@ -34,8 +34,8 @@ class Program {
 
     std::span<const float> bump_widths() const { return bump_widths_; }
 
-    /// places: as many as there are neighbours, or one. registers: register_count() of them.
-    void run(Places places, std::span<Batch> registers) const;
+    /// places: as many as there are neighbours, or one. registers: grown to register_count() where they are fewer.
+    void run(Places places, Registers& registers) const;
     /// The registers where there is no surface: register_count() numbers.
     std::vector<float> run_nowhere() const;
 

@@ -60,7 +60,6 @@ std::vector<Place>& places_at(const PlaceLanes& lanes, const SurfacePointOf<Batc
 
 void run_on_surfaces(const Program& program, const PlaceLanes& lanes, const SurfacePointOf<Batch>& point,
                      const Vec2b& barycentric, ProgramMemory& memory) {
-    memory.registers.resize(std::max<std::size_t>(memory.registers.size(), program.register_count()));
     program.run(places_at(lanes, point, barycentric, program, memory.places), memory.registers);
 }
 

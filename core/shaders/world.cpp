@@ -28,7 +28,6 @@ Vec3b run(const WorldView& world, const std::array<Vec3b, 3>& directions, const 
                            .bounce = WordBatch(bounce),
                            .camera = &world.camera,
                            .footprint_m = Batch(0.0f)};
-    registers.resize(std::max<std::size_t>(registers.size(), world.shader.program.register_count()));
     const std::array places{at_direction(lanes, directions[0]), at_direction(lanes, directions[1]),
                             at_direction(lanes, directions[2])};
     world.shader.program.run(places, registers);
