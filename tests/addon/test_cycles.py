@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import OpenEXR
 import pytest
 from blender_host import Host
+from exr import read_rgb
 
 LIGHT_SAMPLING = ("JOINT", "SPTD", "MIS", "LIGHT", "BSDF")
 TOLERANCE = 0.01  # of the picture's mean radiance
@@ -22,8 +22,7 @@ class Rendered:
 
     def picture(self, name: str) -> np.ndarray:
         """(height, width, 3) radiance."""
-        with OpenEXR.File(str(self.folder / f"{name}.exr"), separate_channels=True) as file:
-            return np.stack([file.channels()[channel].pixels for channel in "RGB"], axis=-1)
+        return read_rgb(self.folder / f"{name}.exr")
 
 
 @pytest.fixture(scope="module")

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import OpenEXR
 import pytest
 from blender_host import Host
+from exr import read_rgb
 from numpy.typing import NDArray
 
 
@@ -29,9 +29,7 @@ def varying(host: Host, folder: Path) -> Any:
 
 def tiles(cases: Any, path: Path) -> dict[str, NDArray[np.float32]]:
     """(rows, columns, 3), the lowest row first, of each tile's node by its name."""
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.channels()
-        picture = np.stack([channels[channel].pixels for channel in "RGB"], axis=-1)[::-1]
+    picture = read_rgb(path)[::-1]
     size = cases["tile_px"]
     named = {}
     for index, name in enumerate(cases["names"]):

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import OpenEXR
 import pytest
 from blender_host import Host
+from exr import read_rgb
 
 LEAST_AGREEMENT = 0.97  # of a tile's pixels: on the edges of a pattern the last bit decides
 
@@ -25,9 +25,7 @@ def cases(host: Host, folder: Path) -> Any:
 
 def _picture(path: Path) -> np.ndarray:
     """(rows, columns, 3), the lowest row first."""
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.channels()
-        return np.stack([channels[channel].pixels for channel in "RGB"], axis=-1)[::-1]
+    return read_rgb(path)[::-1]
 
 
 def test_textures_are_cycles(cases: Any, folder: Path) -> None:

@@ -5,19 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import OpenEXR
 from blender_host import Host
+from exr import read_rgb
 
 TOLERANCE = 0.03  # of the mean
 
 
 def thrown(folder: Path, engine: str) -> np.ndarray:
     """Light that bounced, of each quarter of the picture, (2, 2, 3)."""
-    pictures = []
-    for bounces in (0, 1):
-        with OpenEXR.File(str(folder / f"{engine}_{bounces}.exr"), separate_channels=True) as file:
-            pictures.append(np.stack([file.channels()[channel].pixels for channel in "RGB"], axis=-1))
-    direct, bounced = pictures
+    direct, bounced = (read_rgb(folder / f"{engine}_{bounces}.exr") for bounces in (0, 1))
     return (bounced - direct).reshape(2, 16, 2, 16, 3).mean(axis=(1, 3))
 
 

@@ -5,20 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import OpenEXR
 from blender_host import Host
-
-
-def picture(path: Path) -> np.ndarray:
-    """(height, width, 3)."""
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        return np.stack([file.channels()[channel].pixels for channel in "RGB"], axis=-1)
+from exr import read_rgb
 
 
 def test_flat_and_smooth_faces_are_cycles(host: Host, tmp_path: Path) -> None:
     """But for a pixel in a hundred of each, where rounding decides between triangles."""
     names = host.run("normal_cases", tmp_path)
-    ours, cycles = (picture(tmp_path / f"{engine}.exr") for engine in ("PIVOT", "CYCLES"))
+    ours, cycles = (read_rgb(tmp_path / f"{engine}.exr") for engine in ("PIVOT", "CYCLES"))
     assert (cycles > 0.1).any(axis=-1).mean() > 0.5
     off = np.abs(ours - cycles).max(axis=-1) > 2e-3
     shares = dict(zip(names, off.reshape(len(off), len(names), -1).mean(axis=(0, 2)), strict=True))

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import OpenEXR
 import pytest
 from blender_host import Host
+from exr import read_rgb
 
 
 @pytest.fixture(scope="module")
@@ -23,8 +23,7 @@ def cases(host: Host, folder: Path) -> Any:
 
 def picture(path: Path) -> np.ndarray:
     """(height, width, 3), the lowest row first."""
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        return np.stack([file.channels()[channel].pixels for channel in "RGB"], axis=-1)[::-1]
+    return read_rgb(path)[::-1]
 
 
 def _is_bent_otherwise(name: str, host: Host) -> bool:

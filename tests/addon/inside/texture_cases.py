@@ -57,8 +57,8 @@ def main(folder: Path) -> Any:
     rows = math.ceil(len(names) / COLUMNS)
     parts.camera((COLUMNS, rows, max(COLUMNS, rows))).data.angle = math.pi / 2
     parts.size(TILE_PX * COLUMNS, TILE_PX * rows)
-    _render("CYCLES", folder / "textures_CYCLES.exr")
-    _render("PIVOT", folder / "textures_PIVOT.exr")
+    parts.render_steady(folder / "textures_CYCLES.exr", "CYCLES")
+    parts.render_steady(folder / "textures_PIVOT.exr", "PIVOT")
     program = sys.modules["pivot.export.program"].Program(sys.modules["pivot_core"], None, None)
     first = program.op("position")[0]
     _world(folder)
@@ -191,17 +191,4 @@ def _world(folder: Path) -> None:
     tree.links.new(noise.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     parts.camera(rotation=(1.3, 0, 0.5))
     for engine in ("CYCLES", "PIVOT"):
-        _render(engine, folder / f"world_{engine}.exr")
-
-
-def _render(engine: str, path: Path) -> None:
-    """Each pixel's centre."""
-    scene = bpy.context.scene
-    render = scene.render
-    render.engine = engine
-    scene.cycles.device, scene.cycles.samples, scene.cycles.filter_width = "CPU", 1, 0.01
-    scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
-    scene.pivot.samples, render.filter_size = 1, 0.01
-    render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
-    render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
+        parts.render_steady(folder / f"world_{engine}.exr", engine)
