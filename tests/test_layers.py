@@ -28,6 +28,7 @@ CORE_ROWS = (
 )
 ROW_OF = {folder: row for row, folders in enumerate(CORE_ROWS) for folder in folders}
 CORE_PROPERTIES = {
+    "added_lobe",
     "analytic_error",
     "energy",
     "identities",
