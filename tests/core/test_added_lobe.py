@@ -1,5 +1,5 @@
-"""A lobe is added by a file of its own and a row of the list in core/bsdf/lobe.h: added_lobe.h is, in a copy of the list,
-and a surface that has it beside its base is evaluated and sampled (by added_lobe.cpp)."""
+"""A lobe is added by a file of its own and a row of the list in core/bsdf/lobe.h: so added_lobe.h is, in a copy of it;
+then added_lobe.cpp evaluates and samples a surface that has it beside its base."""
 
 from __future__ import annotations
 
