@@ -38,7 +38,7 @@ LIGHT: dict[str, dict[str, dict[str, Any]]] = {
 SIDE_PX = 2048
 
 Floats = NDArray[np.float64]
-Made = tuple[Floats, float]  # a picture, and CPU seconds a sample
+Made = dict[tuple[str, int], tuple[Floats, float]]  # by material and samples: a picture and its CPU seconds
 
 
 def write_textures() -> None:
@@ -59,42 +59,43 @@ def write_textures() -> None:
         write_png(OUTPUT / f"{name}.png", np.round(255 * texels).astype(np.uint8))
 
 
-def make(python: str, name: str, light: str, samples: int, runs: int) -> dict[str, Made]:
-    """By material; all in one process of that Python."""
-    counts = (samples // 4, samples)
-    files = {
-        (material, count, run): OUTPUT / f"{name}-{material}-{count}-{run}.npz"
-        for material in MATERIALS
-        for run in range(runs)
-        for count in counts
-    }
+def render(python: str, name: str, light: str, counts: tuple[int, int], seed: int) -> Made:
+    """In a process of that Python."""
+    keys = [(material, count) for material in MATERIALS for count in counts]
+    files = [OUTPUT / f"{name}-{material}-{count}.npz" for material, count in keys]
     jobs = [
         {"scene": material, "renderer": name, "settings": LIGHT[light][name]}
-        | {"samples": count, "seed": run, "file": str(file)}
-        for (material, count, run), file in files.items()
+        | {"samples": count, "seed": seed, "file": str(file)}
+        for (material, count), file in zip(keys, files, strict=True)
     ]
     worker = [python, str(FOLDER / "material_speed_blender.py"), str(OUTPUT)]
     environment = os.environ | {"PYTHONPATH": str(FOLDER)}
     subprocess.run(worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment)
     made = {}
-    for material in MATERIALS:
-        least_s = [min(float(np.load(files[material, count, run])["cpu_s"]) for run in range(runs)) for count in counts]
-        picture = np.load(files[material, samples, 0])["image"].astype(np.float64)
-        made[material] = picture, (least_s[1] - least_s[0]) / (samples - counts[0])
-    for file in files.values():
+    for key, file in zip(keys, files, strict=True):
+        with np.load(file) as data:
+            made[key] = data["image"].astype(np.float64), float(data["cpu_s"])
         file.unlink()
     return made
 
 
-def print_row(light: str, material: str, made: dict[str, dict[str, Made]], label: str) -> None:
-    """Of Cycles in one Blender beside Pivot."""
+def cost_s(runs: list[Made], material: str, counts: tuple[int, int]) -> float:
+    """A sample's."""
+    few_s, many_s = (min(made[material, count][1] for made in runs) for count in counts)
+    return (many_s - few_s) / (counts[1] - counts[0])
 
-    def ratio(material: str) -> float:
-        return made[label][material][1] / made["pivot"][material][1]
 
-    (ours, our_s), (theirs, their_s) = made["pivot"][material], made[label][material]
-    figures = f"{our_s:8.3f} {their_s:8.3f} {ratio(material):9.2f} {ratio(material) / ratio('constants'):10.2f}"
-    print(f"{light:8} {material:11} {label:12} {figures} {ours.mean() / theirs.mean():12.4f}", flush=True)
+def print_rows(light: str, runs: dict[str, list[Made]], counts: tuple[int, int]) -> None:
+    """Each Blender's Cycles beside Pivot."""
+    for label in list(runs)[1:]:
+        constants = None
+        for material in MATERIALS:
+            ours_s, theirs_s = (cost_s(runs[of], material, counts) for of in ("pivot", label))
+            ours, theirs = (runs[of][0][material, counts[1]][0].mean() for of in ("pivot", label))
+            ratio = theirs_s / ours_s
+            constants = constants or ratio
+            figures = f"{ours_s:8.3f} {theirs_s:8.3f} {ratio:8.2f} {ratio / constants:10.2f} {ours / theirs:12.4f}"
+            print(f"{light:8} {material:11} {label:12} {figures}", flush=True)
 
 
 def main() -> None:
@@ -108,16 +109,18 @@ def main() -> None:
         return
     OUTPUT.mkdir(parents=True, exist_ok=True)
     write_textures()
-    titles = f"{'Pivot':>8} {'Cycles':>8} {'C : P':>9} {'lead kept':>10} {'means P : C':>12}"
-    print(f"CPU s a sample\n{'light':8} {'material':11} {'Cycles of':12} {titles}")
+    renderers = {"pivot": (arguments.blender[0], "pivot")}
+    renderers |= {f"cycles {version}": (python, "cycles") for python, version in blenders.items()}
+    counts = arguments.samples // 4, arguments.samples
+    titles = f"{'Pivot':>8} {'Cycles':>8} {'C : P':>8} {'lead kept':>10} {'means P : C':>12}"
+    print(f"CPU s a sample\n{'light':8} {'material':11} {'Cycles':12} {titles}", flush=True)
     for light in LIGHT:
-        made = {"pivot": make(arguments.blender[0], "pivot", light, arguments.samples, arguments.runs)}
-        for python, version in blenders.items():
-            label = f"cycles {version}"
-            made[label] = make(python, "cycles", light, arguments.samples, arguments.runs)
-            for material in MATERIALS:
-                print_row(light, material, made, label)
-        images = {label: {material: picture for material, (picture, _) in of.items()} for label, of in made.items()}
+        runs: dict[str, list[Made]] = {label: [] for label in renderers}
+        for seed in range(arguments.runs):  # in turns, so that a busy machine is so for all
+            for label, (python, name) in renderers.items():
+                runs[label].append(render(python, name, light, counts, seed))
+        print_rows(light, runs, counts)
+        images = {label: {m: made[0][m, counts[1]][0] for m in MATERIALS} for label, made in runs.items()}
         table.write_picture(OUTPUT / f"{light}.png", list(MATERIALS), images, (scenes.WIDTH, scenes.HEIGHT))
 
 
