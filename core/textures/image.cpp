@@ -1,6 +1,7 @@
 #include "core/textures/image.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <stdexcept>
 
@@ -113,9 +114,18 @@ Image::Image(std::uint32_t width, std::uint32_t height, std::uint32_t channels, 
         bytes += std::size_t{level.width} * level.height * texel_bytes();
         if (level.width == 1 && level.height == 1) break;
     }
-    texels_.resize(bytes + read_beyond);
-    std::ranges::copy(texels, texels_.begin());
-    for (std::size_t i = 1; i < levels_.size(); ++i) make_level(levels_[i - 1], levels_[i]);
+    memory_bytes_ = bytes + read_beyond;
+    texels_ = std::make_unique_for_overwrite<std::byte[]>(memory_bytes_);
+    std::ranges::copy(texels, texels_.get());
+}
+
+/// A thread that helps here must not begin other work, which may look this image up and wait for itself.
+void Image::make_levels() const {
+    std::call_once(are_levels_made_, [&] {
+        tbb::this_task_arena::isolate([&] {
+            for (std::size_t i = 1; i < levels_.size(); ++i) make_level(levels_[i - 1], levels_[i]);
+        });
+    });
 }
 
 std::size_t Image::texel_bytes() const { return number_bytes(type_) * channels_; }
@@ -138,7 +148,7 @@ Image::Row Image::linear_row(const Level& level, std::uint32_t y) const {
     return row;
 }
 
-void Image::store_row(const Level& level, std::uint32_t y, Row row) {
+void Image::store_row(const Level& level, std::uint32_t y, Row row) const {
     if (is_srgb_) row.apply(channels_, srgb_from_linear<Batch>);
     std::byte* at = &texels_[level.first_byte + std::size_t{y} * level.width * texel_bytes()];
     for (std::size_t i = 0; i < std::size_t{level.width} * channels_; ++i)
@@ -146,7 +156,7 @@ void Image::store_row(const Level& level, std::uint32_t y, Row row) {
 }
 
 /// Each texel is the mean of what it covers, in linear light.
-void Image::make_level(const Level& from, const Level& to) {
+void Image::make_level(const Level& from, const Level& to) const {
     std::vector<Share> columns(to.width);
     for (std::uint32_t x = 0; x < to.width; ++x) columns[x] = share_of(x, from.width, to.width);
     tbb::parallel_for(0u, to.height, [&](std::uint32_t y) {
@@ -169,6 +179,7 @@ void Image::make_level(const Level& from, const Level& to) {
 }
 
 std::vector<float> Image::linear_rgba(std::size_t level) const {
+    if (level > 0) make_levels();
     const Level& chosen = levels_[level];
     std::vector<float> rgba;
     rgba.reserve(std::size_t{chosen.width} * chosen.height * 4);

@@ -1,11 +1,13 @@
 // A picture that shaders look up, kept as it was stored: bytes stay bytes, and what turns them into linear light is
-// done to what a lookup interpolates. What a footprint covers is looked up in smaller copies, made with it.
+// done to what a lookup interpolates. What a footprint covers is looked up in smaller copies, made when first needed.
 //
 // Texels are where Cycles has them: u and v run over 0..1, the first row is the bottom one, and a texel's value is at
 // its middle. Where the footprint is within a texel a lookup is Cycles'. [Cycles 4.5 kernel/device/cpu/image.h,
 // svm/image.h]
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -40,7 +42,8 @@ struct Image {
 
     std::uint32_t width() const { return levels_[0].width; }
     std::uint32_t height() const { return levels_[0].height; }
-    std::size_t memory_bytes() const { return texels_.size(); }
+    /// With the smaller copies.
+    std::size_t memory_bytes() const { return memory_bytes_; }
 
     /// Linear colour and alpha at a place whose neighbours, the width of a footprint away, are at uv_x and uv_y.
     std::tuple<Vec3b, Batch> lookup(const ImageLookup& how, const Vec2b& uv, const Vec2b& uv_x,
@@ -59,14 +62,19 @@ struct Image {
     struct Row;
     std::size_t texel_bytes() const;
     Row linear_row(const Level& level, std::uint32_t y) const;
-    void store_row(const Level& level, std::uint32_t y, Row row);
-    void make_level(const Level& from, const Level& to);
+    void store_row(const Level& level, std::uint32_t y, Row row) const;
+    void make_level(const Level& from, const Level& to) const;
+    void make_levels() const;
 
     TexelType type_;
     std::uint32_t channels_;
     bool is_srgb_;
     std::vector<Level> levels_;
-    std::vector<std::byte> texels_;  ///< and a few more bytes, for reads of whole words
+    std::size_t memory_bytes_;
+    /// All levels', and a few more bytes, for reads of whole words. Those of the copies take no memory until they are
+    /// made: while other images are read, which takes several times what is kept, and where nothing looks them up.
+    std::unique_ptr<std::byte[]> texels_;
+    mutable std::once_flag are_levels_made_;
 };
 
 }  // namespace pivot

@@ -200,6 +200,7 @@ std::tuple<Vec3b, Batch> Image::lookup(const ImageLookup& how, const Vec2b& uv, 
     };
 
     const Probes probes = probes_over(uv_x - uv, uv_y - uv, *this, how.closed_u);
+    if (probes.any_deep) make_levels();
     const Batch depth = floor(probes.depth), t = probes.depth - depth;
     const LevelLanes fine = lanes_at(depth);
     Interpolated found;

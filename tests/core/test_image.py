@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import mmap
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -123,6 +125,21 @@ def test_every_copy_has_the_mean(shape: tuple[int, int], dtype: Any) -> None:
         assert max(level.shape[:2]) == max(1, max(shape) >> index)
         error = 1e-6 if dtype == np.float32 else 5e-3
         assert level.mean(axis=(0, 1)) == pytest.approx(linear.mean(axis=(0, 1)), abs=error)
+
+
+def test_copies_take_no_memory_until_they_are_looked_up() -> None:
+    pixels = np.full((4096, 4096, 4), 100, np.uint8)
+
+    def resident_bytes() -> int:
+        return int(Path("/proc/self/statm").read_text().split()[1]) * mmap.PAGESIZE
+
+    before = resident_bytes()
+    image = pivot_core.Image(pixels)
+    alone = resident_bytes() - before
+    image.level(image.level_count - 1)
+    with_copies = resident_bytes() - before
+    assert alone < 1.1 * pixels.nbytes < 1.25 * pixels.nbytes < with_copies
+    assert image.memory_bytes == pytest.approx(pixels.nbytes * 4 / 3, rel=1e-3)
 
 
 def test_a_footprint_takes_the_mean_of_what_it_covers() -> None:
