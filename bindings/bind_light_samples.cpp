@@ -1,7 +1,7 @@
 // pivot_core.Scene's light samples: what the integrator draws at one vertex, and with which density, for tests.
 #include <pybind11/stl.h>
 
-#include "bindings/arrays.h"
+#include "bindings/lobes.h"
 #include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/integrators/direct_light.h"
@@ -34,7 +34,7 @@ BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
     return {0, Dimensions(0), light_samples, 0};
 }
 
-py::tuple sample_lights(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+py::tuple sample_lights(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,
                         const std::string& light_sampling, std::size_t light_samples, std::size_t count,
                         std::uint32_t seed) {
     const SceneHold hold(scene);
@@ -66,7 +66,7 @@ py::tuple sample_lights(Scene& scene, const Material& material, const Triple& po
     return py::make_tuple(rows(wi), rows(radiance));
 }
 
-py::tuple light_densities(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+py::tuple light_densities(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,
                           const std::string& light_sampling, std::size_t light_samples, const FloatArray& wi) {
     require_shape(wi, "wi", {-1, 3});
     const SceneHold hold(scene);
@@ -98,7 +98,7 @@ py::tuple light_densities(Scene& scene, const Material& material, const Triple& 
     return py::make_tuple(pdf_omega, reflected, pdf_omega_bsdf, shares);
 }
 
-py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple& position, const Triple& wo,
+py::tuple choose_lights_at(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,
                            const FloatArray& u) {
     require_shape(u, "u", {-1});
     const SceneHold hold(scene);
@@ -121,7 +121,7 @@ py::tuple choose_lights_at(Scene& scene, const Material& material, const Triple&
     return py::make_tuple(light, probability);
 }
 
-py::array_t<float> choice_probabilities(Scene& scene, const Material& material, const Triple& position,
+py::array_t<float> choice_probabilities(Scene& scene, const OwnedMaterial& material, const Triple& position,
                                         const Triple& wo) {
     const SceneHold hold(scene);
     const Vertex vertex = vertex_at(scene, material, position, wo);

@@ -18,11 +18,13 @@ std::string names_of_parameters() {
 }
 
 /// One number or colour of a kind's Parameters.
-void set_parameter(std::string_view kind, const LobeParameter& parameter, const std::variant<float, Triple>& value,
-                   float* numbers) {
+void set_parameter(std::string_view kind, const LobeParameter& parameter,
+                   const std::variant<float, Triple, LobeTable>& value, float* numbers) {
     const std::string name(parameter.name);
     const auto* color = std::get_if<Triple>(&value);
-    if ((color ? 3u : 1u) != parameter.count) fail(kind, name + " must be " + (color ? "one number" : "three numbers"));
+    const bool is_one = parameter.count == 1;
+    if (is_one ? !std::holds_alternative<float>(value) : !color)
+        fail(kind, name + " must be " + (is_one ? "one number" : "three numbers"));
     for (std::size_t i = 0; i < parameter.count; ++i) {
         numbers[i] = color ? (*color)[i] : std::get<float>(value);
         if (!(numbers[i] >= parameter.low && numbers[i] <= parameter.high))
@@ -33,12 +35,29 @@ void set_parameter(std::string_view kind, const LobeParameter& parameter, const 
     }
 }
 
+constexpr const char* table_name = "ndf";
+
+/// The table that a kind reads, which is kept, and where it is.
 template <class L>
-LobeOf<float> to_lobe(float kind, const LobeArguments::value_type::second_type& values) {
+AddressOf<float> set_table(const LobeArguments::value_type::second_type& values, OwnedMaterial& material) {
+    const auto value = values.find(table_name);
+    const auto* table = value != values.end() ? std::get_if<LobeTable>(&value->second) : nullptr;
+    if (!table || !*table) fail(L::name, std::string(table_name) + " must be a TabulatedNdf");
+    material.tables.push_back(*table);
+    return AddressOf<float>::of(table->get());
+}
+
+template <class L>
+LobeOf<float> to_lobe(float kind, const LobeArguments::value_type::second_type& values, OwnedMaterial& material) {
     LobeOf<float> lobe{};
     lobe.kind = kind;
-    lobe.write(typename L::Parameters{});
+    typename L::Parameters start{};
     std::size_t known = 0, first = 0;
+    if constexpr (requires { typename L::Table; }) {
+        start.ndf = set_table<L>(values, material);
+        ++known;
+    }
+    lobe.write(start);
     for (const LobeParameter& parameter : L::parameters) {
         if (const auto value = values.find(std::string(parameter.name)); value != values.end()) {
             set_parameter(L::name, parameter, value->second, &lobe.numbers[first]);
@@ -79,7 +98,7 @@ py::array_t<float> map_rows(const Surface& surface, const FloatArray& rows, cons
 
 std::array<Batch, 3> columns_of(const Vec3b& v) { return {v.x, v.y, v.z}; }
 
-py::tuple evaluate(const Material& material, const Triple& wo_local, const FloatArray& wi_local) {
+py::tuple evaluate(const OwnedMaterial& material, const Triple& wo_local, const FloatArray& wi_local) {
     require_shape(wi_local, "wi_local", {-1, 3});
     const Surface surface = surface_of(material, wo_local);
     return py::make_tuple(
@@ -87,14 +106,14 @@ py::tuple evaluate(const Material& material, const Triple& wo_local, const Float
         map_rows<1>(surface, wi_local, [](const auto& s, const Vec3b& wi) { return std::array{pdf_omega(s, wi)}; }));
 }
 
-py::array_t<float> sample_directions(const Material& material, const Triple& wo_local, const FloatArray& u) {
+py::array_t<float> sample_directions(const OwnedMaterial& material, const Triple& wo_local, const FloatArray& u) {
     require_shape(u, "u", {-1, 3});
     return map_rows<3>(surface_of(material, wo_local), u, [](const auto& s, const Vec3b& row) {
         return columns_of(sample(s, row.x, Vec2b(row.y, row.z)));
     });
 }
 
-Triple albedo(const Material& material, const Triple& wo_local) {
+Triple albedo(const OwnedMaterial& material, const Triple& wo_local) {
     const Surface surface = surface_of(material, wo_local);
     Rgb total = albedo_base(surface);
     for_each_lobe(surface,
@@ -104,33 +123,36 @@ Triple albedo(const Material& material, const Triple& wo_local) {
 
 }  // namespace
 
-std::array<LobeOf<float>, max_lobes> to_lobes(const LobeArguments& arguments) {
+void set_lobes(OwnedMaterial& material, const LobeArguments& arguments) {
     if (arguments.size() > max_lobes)
         throw py::value_error("a material has at most " + std::to_string(max_lobes) + " lobes beside its base");
-    std::array<LobeOf<float>, max_lobes> lobes{};
+    std::array<LobeOf<float>, max_lobes>& lobes = material.lobes;
+    lobes = {};
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const auto& [name, values] = arguments[i];
         std::string known;
         for_each_lobe_kind<float>([&, &name = name, &values = values]<class L>(float kind) {
-            if (L::name == name) lobes[i] = to_lobe<L>(kind, values);
+            if (L::name == name) lobes[i] = to_lobe<L>(kind, values, material);
             known += (known.empty() ? "" : ", ") + std::string(L::name);
         });
         if (lobes[i].kind == 0.0f) fail(name, "there is no such kind; there are " + known);
     }
-    return lobes;
 }
 
 void register_lobes(py::module_& module) {
     py::dict kinds;
+    py::list with_tables;
     for_each_lobe_kind<float>([&]<class L>(float) {
         py::dict parameters;
         for (const LobeParameter& p : L::parameters)
             parameters[py::str(std::string(p.name))] = py::make_tuple(p.count, p.low, p.high);
+        if constexpr (requires { typename L::Table; }) with_tables.append(py::str(std::string(L::name)));
         kinds[py::str(std::string(L::name))] = parameters;
     });
     module.attr("LOBES") = kinds;
+    module.attr("LOBES_WITH_NDF") = with_tables;
     module.attr("MAX_LOBES") = max_lobes;
-    auto material = module.attr("Material").cast<py::class_<Material>>();
+    auto material = module.attr("Material").cast<py::class_<OwnedMaterial>>();
     material.def("evaluate", &evaluate, py::arg("wo_local"), py::arg("wi_local"),
                  "BSDF times |cos| (n, 3), and the density of sample() (n, 1), both per steradian; wi_local (n, 3).");
     material.def("sample", &sample_directions, py::arg("wo_local"), py::arg("u"),

@@ -5,7 +5,7 @@
 namespace pivot::bindings {
 
 void register_material(py::module_& module) {
-    py::class_<Material>(
+    py::class_<OwnedMaterial>(
         module, "Material",
         "A Lambert lobe beneath one GGX lobe, further lobes, and emission; colours are linear RGB.\n\n"
         "The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is "
@@ -21,18 +21,21 @@ void register_material(py::module_& module) {
                          float conductor_weight, float dielectric_weight, float dielectric_ior,
                          const Triple& dielectric_tint, bool multiscatter, float weight, const Triple& emission,
                          const LobeArguments& lobes) {
-                 return Material{{.diffuse = to_vec3(diffuse),
-                                  .alpha = alpha,
-                                  .conductor_f0 = to_vec3(conductor_f0),
-                                  .conductor_f90 = to_vec3(conductor_f90),
-                                  .conductor_weight = conductor_weight,
-                                  .dielectric_weight = dielectric_weight,
-                                  .dielectric_ior = dielectric_ior,
-                                  .dielectric_tint = to_vec3(dielectric_tint),
-                                  .multiscatter = multiscatter ? 1.0f : 0.0f,
-                                  .weight = weight},
-                                 to_vec3(emission),
-                                 to_lobes(lobes)};
+                 OwnedMaterial material{{{.diffuse = to_vec3(diffuse),
+                                          .alpha = alpha,
+                                          .conductor_f0 = to_vec3(conductor_f0),
+                                          .conductor_f90 = to_vec3(conductor_f90),
+                                          .conductor_weight = conductor_weight,
+                                          .dielectric_weight = dielectric_weight,
+                                          .dielectric_ior = dielectric_ior,
+                                          .dielectric_tint = to_vec3(dielectric_tint),
+                                          .multiscatter = multiscatter ? 1.0f : 0.0f,
+                                          .weight = weight},
+                                         to_vec3(emission),
+                                         {}},
+                                        {}};
+                 set_lobes(material, lobes);
+                 return material;
              }),
              py::kw_only(), py::arg("diffuse") = Triple{}, py::arg("alpha") = 0.5f, py::arg("conductor_f0") = Triple{},
              py::arg("conductor_f90") = Triple{}, py::arg("conductor_weight") = 1.0f,

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "bindings/arrays.h"
+#include "bindings/lobes.h"
 #include "bindings/register.h"
 #include "core/bsdf/lobe.h"
 #include "core/shaders/shader.h"
@@ -89,14 +89,26 @@ void for_each_number(const Material& material, const Visit& visit) {
         });
 }
 
-Shader make_shader(const Material& constants, const Program& program,
+Shader constant_shader(const OwnedMaterial& material) {
+    Shader shader(material);
+    shader.tables = material.tables;
+    return shader;
+}
+
+Shader make_shader(const OwnedMaterial& constants, const Program& program,
                    const std::map<string, std::vector<std::int64_t>>& varying) {
     Shader shader(constants, program);
+    shader.tables = constants.tables;
     const auto check = [&](const string& name, const std::vector<std::int64_t>& registers, std::size_t count) {
         if (registers.size() != count) throw py::value_error(name + " is " + std::to_string(count) + " numbers");
         for (const std::int64_t index : registers)
             if (index >= program.register_count())
                 throw py::value_error(name + ": the program has no register " + std::to_string(index));
+    };
+    const auto three_registers = [](const string& name, const std::vector<std::int64_t>& registers) {
+        if (std::ranges::min(registers) < 0) throw py::value_error("a " + name + " is three registers");
+        const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(registers[i]); };
+        return std::array{at(0), at(1), at(2)};
     };
     std::size_t known = 0;
     for (const string name : {"normal", "own_normal"}) {
@@ -104,13 +116,16 @@ Shader make_shader(const Material& constants, const Program& program,
         if (found == varying.end()) continue;
         const std::vector<std::int64_t>& registers = found->second;
         check(name, registers, 3);
-        if (std::ranges::min(registers) < 0) throw py::value_error("a normal is three registers");
-        const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(registers[i]); };
-        shader.normal = {at(0), at(1), at(2)};
+        shader.normal = three_registers("normal", registers);
         shader.normal_is_own = name == "own_normal";
         ++known;
     }
-    string names = "normal, own_normal";
+    if (const auto found = varying.find("tangent"); found != varying.end()) {
+        check("tangent", found->second, 3);
+        shader.tangent = three_registers("tangent", found->second);
+        ++known;
+    }
+    string names = "normal, own_normal, tangent";
     for_each_number(constants, [&](const string& name, const Numbers& numbers) {
         names += ", " + name;
         const auto found = varying.find(name);
@@ -154,12 +169,12 @@ void register_shaders(py::module_& module) {
              "The first of two neighbours along the directions that bump mapping takes, filter_width footprints away.")
         .def("run_nowhere", &Program::run_nowhere, "The registers where there is no surface.");
     py::class_<Shader>(module, "Shader", "A Material of which some numbers are a program's registers.")
-        .def(py::init<const Material&>(), py::arg("constants"))
+        .def(py::init(&constant_shader), py::arg("constants"))
         .def(py::init(&make_shader), py::arg("constants"), py::arg("program"), py::arg("varying"),
              "varying: by the name of Material's argument, the register of each number, -1 for one that is constant; "
              "'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's "
-             "own.");
-    py::implicitly_convertible<Material, Shader>();
+             "own; 'tangent': which way x lies of pictures of microfacets, world space.");
+    py::implicitly_convertible<OwnedMaterial, Shader>();
 }
 
 }  // namespace pivot::bindings

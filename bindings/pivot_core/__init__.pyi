@@ -19,6 +19,7 @@ __all__: list[str] = [
     "AreaLight",
     "Image",
     "LOBES",
+    "LOBES_WITH_NDF",
     "MAX_LOBES",
     "Material",
     "Program",
@@ -29,11 +30,62 @@ __all__: list[str] = [
     "SphereLight",
     "SpotLight",
     "SunLight",
+    "TabulatedNdf",
     "arch",
     "ops",
     "run_op",
     "version",
 ]
+
+class TabulatedNdf:
+    """
+    A distribution of microfacet normals as a picture: what the lobe 'tabulated' takes as its ndf. Immutable.
+    """
+    def __init__(self, pixels: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        pixels (n, n): D of the normal h whose x is the column's and y the row's, from -1 to 1; of any scale. Raises ValueError where they are no density.
+        """
+    def albedo(
+        self, wo_local: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        What is reflected towards each direction (n, 3) of light that is 1 all around, (n,).
+        """
+    def density(
+        self, h_local: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        D (n,), 1/sr, of normals (n, 3).
+        """
+    def g1(
+        self, w_local: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The part of what faces each direction (n, 3) that it sees, (n,).
+        """
+    def sigma(
+        self, w_local: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The integral of max(w.h, 0) D(h) dw, (n,), of directions (n, 3) above the surface.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        Of a GGX distribution about as rough.
+        """
+    @property
+    def fit(self) -> list:
+        """
+        Tilted GGX lobes that it is about the sum of: (weight, (shift of slopes), (A's xx, yx, yy)).
+        """
+    @property
+    def fit_error(self) -> float:
+        """
+        The part of the projected area that lies elsewhere.
+        """
+    @property
+    def memory_bytes(self) -> int: ...
 
 class Material:
     """
@@ -76,7 +128,8 @@ class Material:
                     | typing.SupportsIndex
                     | typing.Annotated[
                         collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-                    ],
+                    ]
+                    | TabulatedNdf,
                 ],
             ]
         ] = [],
@@ -169,7 +222,7 @@ class Shader:
         varying: collections.abc.Mapping[str, collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]],
     ) -> None:
         """
-        varying: by the name of Material's argument, the register of each number, -1 for one that is constant; 'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's own.
+        varying: by the name of Material's argument, the register of each number, -1 for one that is constant; 'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's own; 'tangent': which way x lies of pictures of microfacets, world space.
         """
 
 class SphereLight:
@@ -529,7 +582,20 @@ LOBES: dict = {
         "weight": (1, 0.0, 3.4028234663852886e38),
     },
     "translucent": {"color": (3, 0.0, 3.4028234663852886e38)},
+    "tabulated": {
+        "diffuse": (3, 0.0, 3.4028234663852886e38),
+        "alpha": (1, 0.0, 1.0),
+        "conductor_f0": (3, 0.0, 3.4028234663852886e38),
+        "conductor_f90": (3, 0.0, 3.4028234663852886e38),
+        "conductor_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_ior": (1, 1.0, 3.4028234663852886e38),
+        "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+        "weight": (1, 0.0, 3.4028234663852886e38),
+    },
 }
+LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3
 arch: str
 version: str

@@ -30,25 +30,40 @@ Vec3<T> mean_fresnel(const BaseOf<T>& base, T dielectric_share) {
            (f.dielectric_f90 - f.dielectric_f0) * dielectric_share;
 }
 
+template <class T>
+T facet_alpha(const BaseMaterialOf<T>& material) {
+    return min(max(material.alpha, T(min_alpha)), T(1));
+}
+
 }  // namespace
 
 template <class T>
 BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local) {
+    FacetAlbedoOf<T> facets{T(1), T(1)};
+    if (any(material.has_glossy())) {
+        const T alpha = facet_alpha(material);
+        facets.towards_wo = ggx_albedo(alpha, wo_local.z);
+        if (any(material.multiscatter > T(0))) facets.mean = ggx_average_albedo(alpha);
+    }
+    return make_base(material, wo_local, facets);
+}
+
+template <class T>
+BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local, const FacetAlbedoOf<T>& facets) {
     const T zero(0), one(1);
     const Vec3<T> black(zero), white(one);
     BaseOf<T> base{.wo_local = wo_local,
                    .diffuse = material.diffuse,
-                   .alpha = min(max(material.alpha, T(min_alpha)), one),
+                   .alpha = facet_alpha(material),
                    .fresnel = {black, black, black, black, material.dielectric_ior},
                    .glossy_probability = zero};
     if (!any(material.has_glossy())) return base;
 
     LobeFresnelOf<T>& fresnel = base.fresnel;
-    const T albedo = ggx_albedo(base.alpha, wo_local.z);
+    const T albedo = facets.towards_wo;
     const Mask<T> multiscatter = material.multiscatter > zero;
-    const T mean_albedo = any(multiscatter) ? ggx_average_albedo(base.alpha) : one;
     const auto energy_scale = [&](const Vec3<T>& mean) {
-        return any(multiscatter) ? select(multiscatter, multiscatter_scale(mean, albedo, mean_albedo), white) : white;
+        return any(multiscatter) ? select(multiscatter, multiscatter_scale(mean, albedo, facets.mean), white) : white;
     };
     fresnel.schlick_f0 = material.conductor_f0;
     fresnel.schlick_f90 = material.conductor_f90;
@@ -89,15 +104,23 @@ BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local) 
 
 template <class T>
 Vec3<T> glossy_albedo(const BaseOf<T>& base) {
-    const T cos_o = base.wo_local.z;
+    return glossy_albedo(base, ggx_albedo(base.alpha, base.wo_local.z));
+}
+
+template <class T>
+Vec3<T> glossy_albedo(const BaseOf<T>& base, const T& facets_towards_wo) {
     const Mask<T> has_dielectric = base.fresnel.has_dielectric();
-    const T share = any(has_dielectric) ? ggx_dielectric_weight(base.alpha, cos_o, base.fresnel.ior) : T(0);
-    return mean_fresnel(base, share) * ggx_albedo(base.alpha, cos_o);
+    const T share = any(has_dielectric) ? ggx_dielectric_weight(base.alpha, base.wo_local.z, base.fresnel.ior) : T(0);
+    return mean_fresnel(base, share) * facets_towards_wo;
 }
 
 template Base make_base(const BaseMaterialOf<float>&, const Vec3f&);
 template BaseOf<Batch> make_base(const BaseMaterialOf<Batch>&, const Vec3b&);
+template Base make_base(const BaseMaterialOf<float>&, const Vec3f&, const FacetAlbedoOf<float>&);
+template BaseOf<Batch> make_base(const BaseMaterialOf<Batch>&, const Vec3b&, const FacetAlbedoOf<Batch>&);
 template Rgb glossy_albedo(const Base&);
 template Vec3b glossy_albedo(const BaseOf<Batch>&);
+template Rgb glossy_albedo(const Base&, const float&);
+template Vec3b glossy_albedo(const BaseOf<Batch>&, const Batch&);
 
 }  // namespace pivot

@@ -88,9 +88,19 @@ struct BaseOf {
 using LobeFresnel = LobeFresnelOf<float>;
 using Base = BaseOf<float>;
 
+/// What single scattering between the microfacets keeps of the light, F = 1: towards wo, and its hemispherical mean.
+template <class T>
+struct FacetAlbedoOf {
+    T towards_wo, mean;
+};
+
 /// wo_local.z > 0. A black one has neither lobe's weight; sampling it yields zero.
 template <class T>
 BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local);
+
+/// The same of microfacets that are not GGX's, but about as rough.
+template <class T>
+BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local, const FacetAlbedoOf<T>& facets);
 
 /// The base, its GGX alpha at least so much and all else as it was: the energy stays that of the sharper, as in Cycles.
 template <class T>
@@ -102,6 +112,9 @@ BaseOf<T> blurred(BaseOf<T> base, T least_alpha) {
 /// Albedo of the GGX lobe towards wo when all light around is equal: what it reflects of a white furnace.
 template <class T>
 Vec3<T> glossy_albedo(const BaseOf<T>& base);
+/// The same of microfacets that keep so much of it towards wo.
+template <class T>
+Vec3<T> glossy_albedo(const BaseOf<T>& base, const T& facets_towards_wo);
 
 /// The same of both lobes.
 template <class T>

@@ -7,18 +7,20 @@
 #include <utility>
 
 #include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
 
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>>;
+using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>>;
 
 /// What a kind of lobe must have, T its number type.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
-    /// As a material has it: a struct of numbers, named in order by L::parameters; and as it is seen from wo.
+    /// As a material has it: a struct of numbers, named in order by L::parameters, and last the AddressOf an
+    /// L::Table, if there is such a type; and as it is seen from wo.
     { L::seen(parameters, w) } -> std::same_as<L>;
     { L::name } -> std::convertible_to<std::string_view>;
     { L::parameters[0] } -> std::convertible_to<LobeParameter>;
@@ -34,9 +36,12 @@ concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters,
     { lobe.albedo(w) } -> std::same_as<Vec3<T>>;
     /// What the pass of diffuse colours shows of it.
     { lobe.diffuse() } -> std::same_as<Vec3<T>>;
-    /// (wo): the base that reflects what this lobe sends to wo, for the analytic integrator; of one that transmits, in
-    /// a frame turned over.
+    /// (wo): the base that reflects what this lobe sends to wo, or about that; of one that transmits, in a frame turned
+    /// over. has_closed_form: whether the analytic integrator takes the base for the lobe.
     { lobe.closed_form(w) } -> std::same_as<BaseOf<T>>;
+    { L::has_closed_form } -> std::convertible_to<bool>;
+    /// (wo, highlights): adds GGX lobes that light samples may follow, and what these leave out. Of floats.
+    requires !std::same_as<T, float> || requires(Highlights & highlights) { lobe.add_highlights(w, highlights); };
     /// (least alpha): the lobe, its GGX alpha at least that and all else as it was, even how much it reflects.
     { lobe.blurred(u_lobe) } -> std::same_as<L>;
 };
@@ -47,6 +52,7 @@ template <class L>
 constexpr std::size_t number_count() {
     std::size_t count = 0;
     for (const LobeParameter& parameter : L::parameters) count += parameter.count;
+    if constexpr (requires { typename L::Table; }) count += 3;  // its address, after them
     return count;
 }
 
@@ -68,7 +74,7 @@ template <class T, class Visit>
 void visit_lobe(const LobeOf<T>& record, const Visit& visit) {
     for_each_lobe_kind<T>([&]<class L>(T kind) {
         const Mask<T> is_kind = record.kind == kind;
-        if (any(is_kind)) visit(record.template read<L>(), is_kind);
+        if (any(is_kind)) visit(record.template read<L>(is_kind), is_kind);
     });
 }
 

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "core/bsdf/base.h"
+#include "core/simd/batch.h"
 
 namespace pivot {
 
@@ -21,12 +22,16 @@ struct LobeOf {
     T probability;  ///< of choosing it when the BSDF is sampled
     std::array<T, sizeof(BaseOf<float>) / sizeof(float)> numbers;
 
-    /// The lobe, if it is of this kind; else its numbers mean nothing.
+    /// The lobe, in the lanes that are of its kind; in the others its numbers mean nothing, but are 0 if it holds an
+    /// address.
     template <class Numbers>
-    Numbers read() const {
+    Numbers read([[maybe_unused]] const Mask<T>& is_kind) const {
         static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) <= sizeof(numbers));
         Numbers value;
         std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof(Numbers));
+        if constexpr (requires { value.ndf; })
+            value.ndf = {select(is_kind, value.ndf.low, T(0)), select(is_kind, value.ndf.middle, T(0)),
+                         select(is_kind, value.ndf.high, T(0))};
         return value;
     }
     template <class Numbers>
@@ -41,6 +46,33 @@ struct LobeOf {
         written.write(value);
         for (std::size_t i = 0; i < sizeof(Numbers) / sizeof(T); ++i)
             numbers[i] = select(where, written.numbers[i], numbers[i]);
+    }
+};
+
+/// Where something lies that a lobe reads, as numbers among its others: 16 bits each, which floats hold exactly. All 0:
+/// nothing.
+template <class T>
+struct AddressOf {
+    T low{0}, middle{0}, high{0};
+
+    static AddressOf of(const void* pointer) {
+        const auto bits = reinterpret_cast<std::uintptr_t>(pointer);
+        const auto part = [&](int shift) { return static_cast<float>((bits >> shift) & 0xffffu); };
+        return {part(0), part(16), part(32)};
+    }
+    template <class Pointee>
+    const Pointee* pointer() const {
+        const auto bits = [](float part, int shift) { return static_cast<std::uintptr_t>(part) << shift; };
+        return reinterpret_cast<const Pointee*>(bits(low, 0) | bits(middle, 16) | bits(high, 32));
+    }
+    /// Each lane's.
+    template <class Pointee>
+    std::array<const Pointee*, batch_size> pointers() const {
+        const Lanes l = store(low), m = store(middle), h = store(high);
+        std::array<const Pointee*, batch_size> result;
+        for (std::size_t i = 0; i < batch_size; ++i)
+            result[i] = AddressOf<float>{l[i], m[i], h[i]}.template pointer<Pointee>();
+        return result;
     }
 };
 

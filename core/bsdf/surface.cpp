@@ -18,7 +18,7 @@ T see_lobe(const LobeOf<T>& material, const Vec3<T>& wo_local, LobeOf<T>& seen) 
     for_each_lobe_kind<T>([&]<class L>(T kind) {
         const Mask<T> is_kind = material.kind == kind;
         if (!any(is_kind)) return;
-        const L lobe = L::seen(material.template read<typename L::Parameters>(), wo_local);
+        const L lobe = L::seen(material.template read<typename L::Parameters>(is_kind), wo_local);
         seen.write(lobe, is_kind);
         albedo = select(is_kind, mean_component(lobe.albedo(wo_local)), albedo);
     });

@@ -188,11 +188,23 @@ Mask<T> is_valid(const GgxCap<T>& g) {
     return room > T(0) && g.b.z > T(0) && sqr(g.b.z) > sqr(g.a1 * g.d.z) + sqr(g.a2 * g.p.z);
 }
 
+/// Whether the half vectors make a cone, above the surface or not.
+template <class T>
+Mask<T> is_cone(const GgxCap<T>& g) {
+    return T(2) * sqr(g.cos_half) - g.cap.versine > T(1e-3f);
+}
+
+/// Of D(h) / 4 over the cap if they do: where D means the same below the surface.
+template <class T>
+T projected_integral(const GgxCap<T>& g) {
+    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
+    return g.form_factor * g.gamma * center * g.lift;
+}
+
 /// Of D(h) / (4 cos_o) over the cap, without masking, Fresnel and horizon; 0 if not valid.
 template <class T>
 T integral(const GgxCap<T>& g) {
-    const T center = g.cos_half + g.velocity.x * g.a1 * g.sin_half;
-    return select(is_valid(g), g.form_factor * g.gamma * center * g.lift * inverse(g.wo.z), T(0));
+    return select(is_valid(g), projected_integral(g) * inverse(g.wo.z), T(0));
 }
 
 /// Of the semi-axes, boosted: they are across e3.

@@ -93,6 +93,14 @@ void set_shading_normal(SurfacePointOf<T>& point, const Vec3<T>& normal, const V
     point.wo_local = select(reflects, wo_local, Vec3<T>(wo_local.x, wo_local.y, max(wo_local.z, T(1e-3f))));
 }
 
+/// Turns the shading frame about its normal until x lies along the tangent, unit, which need not lie in the surface.
+template <class T>
+void set_tangent(SurfacePointOf<T>& point, const Vec3<T>& tangent) {
+    const Vec3<T> wo = point.frame.to_world(point.wo_local);
+    point.frame = frame_from_z(point.frame.z, tangent);
+    point.wo_local = point.frame.to_local(wo);
+}
+
 /// barycentric: weights of the second and third corner. wo: unit.
 template <class T>
 SurfacePointOf<T> surface_point(const HitTriangleOf<T>& triangle, const Vec2<T>& barycentric, const Vec3<T>& wo) {

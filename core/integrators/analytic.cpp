@@ -4,6 +4,7 @@
 #include "core/integrators/arrival.h"
 #include "core/integrators/bump_share.h"
 #include "core/integrators/cap_light_shading.h"
+#include "core/integrators/lobe_points.h"
 #include "core/integrators/specular_occlusion.h"
 #include "core/sampling/warp.h"
 #include "core/simd/pack.h"
@@ -238,9 +239,29 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
     for (const HitSurface& hit : hits) add(hit, hit.point, hit.surface);
     for (const HitSurface& hit : hits)
         for_each_lobe(hit.surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-            add(hit, L::transmits ? turned_over(hit.point) : hit.point, lobe.closed_form(hit.surface.wo_local));
+            if constexpr (L::has_closed_form)
+                add(hit, L::transmits ? turned_over(hit.point) : hit.point, lobe.closed_form(hit.surface.wo_local));
         });
     return parts;
+}
+
+/// Adds what a surface's lobes without closed forms reflect.
+void add_lobe_points(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+                     const HitSurface& hit, Gathered& gathered) {
+    for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
+        if constexpr (!L::has_closed_form) {
+            Surface alone(make_base(BaseMaterialOf<float>{}, hit.surface.wo_local));
+            alone.lobes = {record};
+            alone.lobes[0].probability = 1.0f;
+            const auto add = [&](const LobeReflection& reflection) {
+                gathered.add(reflection.radiance, Method::lobe_directions, reflection.error);
+                gathered.shadow_variance += reflection.shadow_variance;
+            };
+            for (const Light& light : scene.lamps())
+                add(reflect_light(scene, settings, points, light, hit.point, alone));
+            if (scene.has_world()) add(reflect_world(scene, settings, points, hit.point, alone));
+        }
+    });
 }
 
 /// Appends the surfaces of a batch of arrivals, and tells the passes of them. samples: of each arrival.
@@ -311,6 +332,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
                     std::span(gathered).first(count));
         for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
     }
+    for (const HitSurface& surface : surfaces)
+        if (surface.surface.has_lobes()) add_lobe_points(scene, settings, points, surface, light[surface.sample]);
     for (const HitSurface& surface : surfaces) {
         Sample& sample = samples[surface.sample];
         const Gathered& gathered = light[surface.sample];

@@ -63,22 +63,26 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
     }
     run_on_surfaces(shader.program, place_lanes, point, arrived.hit.barycentric, memory);
     ArrivalBatch batch{point, material_at(shader, memory.registers)};
+    const auto unit = [&](const std::array<std::uint32_t, 3>& registers, const Vec3b& otherwise) {
+        const Vec3b v(memory.registers[registers[0]], memory.registers[registers[1]], memory.registers[registers[2]]);
+        const Batch v2 = dot(v, v);
+        const BatchMask has_length = v2 > tiny<Batch> && v2 <= std::numeric_limits<Batch>::max();
+        return select(has_length, v / sqrt(select(has_length, v2, Batch(1.0f))), otherwise);
+    };
+    const Vec3b smooth = batch.point.frame.z;
+    // A normal of no length, or of no number, leaves the surface's own; such a tangent any.
+    const Vec3b turned = shader.normal ? unit(*shader.normal, smooth) : smooth;
     if (shader.normal) {
-        const auto& [x, y, z] = *shader.normal;
-        const Vec3b normal(memory.registers[x], memory.registers[y], memory.registers[z]);
-        const Batch n2 = dot(normal, normal);
-        // A normal of no length, or of no number, leaves the surface's own.
-        const BatchMask is_normal = n2 > tiny<Batch> && n2 <= std::numeric_limits<Batch>::max();
-        const Vec3b unit = normal / sqrt(select(is_normal, n2, Batch(1.0f)));
         const BatchMask reflects = batch.material.has_glossy() || batch.material.lobes[0].kind > Batch(0.0f);
-        const Vec3b smooth = batch.point.frame.z, turned = select(is_normal, unit, smooth);
         set_shading_normal(batch.point, turned, wo, reflects);
-        const Batch cos_turned = dot(turned, smooth), cos2 = max(cos_turned * cos_turned, tiny<Batch>);
-        batch.bump.normal = batch.point.frame.to_local(turned);
-        if (shader.normal_is_own) return batch;
-        batch.bump.normal_smooth = batch.point.frame.to_local(smooth);
-        batch.bump.alpha2 = clamp01(Batch(0.125f) * (Batch(1.0f) / cos2 - Batch(1.0f)));
     }
+    if (shader.tangent) set_tangent(batch.point, unit(*shader.tangent, batch.point.frame.x));
+    if (!shader.normal) return batch;
+    batch.bump.normal = batch.point.frame.to_local(turned);
+    if (shader.normal_is_own) return batch;
+    const Batch cos_turned = dot(turned, smooth), cos2 = max(cos_turned * cos_turned, tiny<Batch>);
+    batch.bump.normal_smooth = batch.point.frame.to_local(smooth);
+    batch.bump.alpha2 = clamp01(Batch(0.125f) * (Batch(1.0f) / cos2 - Batch(1.0f)));
     return batch;
 }
 

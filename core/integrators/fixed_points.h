@@ -8,7 +8,15 @@
 namespace pivot {
 
 /// Which of the fixed sets a point belongs to.
-enum class PointSet : std::uint32_t { light_diffuse = 1, light_glossy = 2, world_diffuse = 3, world_glossy = 4 };
+enum class PointSet : std::uint32_t {
+    light_diffuse = 1,
+    light_glossy = 2,
+    world_diffuse = 3,
+    world_glossy = 4,
+    lobe_light = 5,
+    lobe_direction = 6,
+    lobe_world = 7,
+};
 
 /// The part of the sets that one camera sample takes: all samples together take enough that a penumbra's steps stay
 /// below the error budget.

@@ -6,6 +6,28 @@ namespace pivot {
 namespace {
 
 const Vec3f normal_local(0.0f, 0.0f, 1.0f);
+constexpr float below_one = 1.0f - 0x1p-24f;
+
+Highlights highlights_of(const Surface& surface) {
+    Highlights highlights;
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
+        lobe.add_highlights(surface.wo_local, highlights);
+    });
+    return highlights;
+}
+
+/// The diffuse lobes as one, and the strongest of the highlights.
+JointSurface<float> joint_surface_of_all(const Surface& surface) {
+    JointSurface<float> joint = joint_surface(surface);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
+        Surface alone(lobe.closed_form(surface.wo_local));
+        const JointSurface<float> other = joint_surface(alone);
+        const float diffuse = joint.diffuse + other.diffuse;
+        if (other.fresnel_f0 + other.fresnel_f90 > joint.fresnel_f0 + joint.fresnel_f90) joint = other;
+        joint.diffuse = diffuse;
+    });
+    return joint;
+}
 
 }  // namespace
 
@@ -23,10 +45,13 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
         const AreaLight& area = *placed;
         const AreaView<float> view = view_from(area, point);
         if (dot(view.center, view.normal) < 0.0f)
-            area_.emplace(joint_surface(surface), view);
+            area_.emplace(joint_surface_of_all(surface), view);
         else
             diffuse_technique_ = Technique::none;
-        shares_with_bsdf_ = has_lobes || needs_bsdf_samples(view, surface.wo_local);
+        const Highlights highlights = highlights_of(surface);
+        const bool is_as_of_base =
+            !has_lobes || (!surface.has_glossy() && highlights.is_one_of_a_base() && highlights.are_close);
+        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, surface.wo_local);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -73,7 +98,33 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     glossy_probability_ = total > 0.0f ? glossy_share / total : 0.5f;
     if (surface.has_diffuse() && surface.has_glossy())
         glossy_probability_ = std::clamp(glossy_probability_, 0.05f, 0.95f);
-    if (has_lobes) glossy_probability_ = std::min(glossy_probability_, 0.5f);
+    if (!has_lobes) return;
+    glossy_probability_ = std::min(glossy_probability_, 0.5f);
+    if (strategy == LightSampling::joint && follow_highlights(surface, total))
+        shares_with_bsdf_ = surface.has_glossy() && glossy_technique_ == Technique::uniform;
+}
+
+bool LightSampler::follow_highlights(const Surface& surface, float share_of_base) {
+    const Highlights highlights = highlights_of(surface);
+    float total = 0.0f;
+    bool are_all = highlights.are_close;
+    for (const auto& [frame, alpha_x, alpha_y, reflectance] : highlights) {
+        CapHighlight& over = highlights_[highlight_count_];
+        over.frame = frame;
+        const Cap<float> cap{frame.to_local(cap_local_.axis), cap_local_.versine};
+        over.cap = ggx_cap(frame.to_local(surface.wo_local), cap, alpha_x, alpha_y);
+        over.probability = reflectance * projected_integral(over.cap) / surface.wo_local.z;
+        if (is_cone(over.cap) && over.probability > 0.0f) {
+            total += over.probability;
+            ++highlight_count_;
+        } else {
+            are_all = false;
+        }
+    }
+    for (std::size_t i = 0; i < highlight_count_; ++i) highlights_[i].probability /= total;
+    const float beside = share_of_base + highlights.beside * 2.0f * std::min(cap_local_.versine, 1.0f);
+    if (total > 0.0f) highlights_probability_ = total / (total + beside);
+    return are_all;
 }
 
 Vec3f LightSampler::sample_in_cap(Technique technique, const Vec2f& u) const {
@@ -116,9 +167,28 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     }
     if (!cap_) return sample_light(light_, point_.position, u);
     // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
-    const bool glossy = u.x < glossy_probability_;
-    const float u_x = glossy ? u.x / glossy_probability_ : (u.x - glossy_probability_) / (1.0f - glossy_probability_);
-    const Vec3f wi_local = sample_in_cap(glossy ? glossy_technique_ : diffuse_technique_, {u_x, u.y});
+    float left = u.x;
+    const auto chooses = [&](float probability) {
+        if (left < probability) {
+            left /= probability;
+            return true;
+        }
+        left = std::min((left - probability) / (1.0f - probability), below_one);
+        return false;
+    };
+    const auto draw = [&] {
+        if (!chooses(highlights_probability_)) {
+            const Technique technique = chooses(glossy_probability_) ? glossy_technique_ : diffuse_technique_;
+            return sample_in_cap(technique, {left, u.y});
+        }
+        float rest = 1.0f;
+        std::size_t chosen = 0;
+        while (chosen + 1 < highlight_count_ && !chooses(highlights_[chosen].probability / rest))
+            rest = std::max(rest - highlights_[chosen++].probability, tiny<float>);
+        const CapHighlight& over = highlights_[chosen];
+        return over.frame.to_world(pivot::sample(over.cap, {left, u.y}).omega_i);
+    };
+    const Vec3f wi_local = draw();
     LightPoint place = light_point_in_cap(light_, *cap_, point_.position, point_.frame.to_world(wi_local));
     place.pdf_omega = pdf_omega(place);
     return place;
@@ -132,7 +202,13 @@ float LightSampler::pdf_omega(const LightPoint& place) const {
     }
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);
-    return lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_);
+    float of_highlights = 0.0f;
+    for (std::size_t i = 0; i < highlight_count_; ++i)
+        of_highlights +=
+            highlights_[i].probability * pdf_omega_inside(highlights_[i].cap, highlights_[i].frame.to_local(wi_local));
+    return lerp(
+        lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_),
+        of_highlights, highlights_probability_);
 }
 
 }  // namespace pivot

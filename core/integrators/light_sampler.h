@@ -12,9 +12,10 @@
 //   light    uniform in the cap   uniform in the cap                   no
 //   bsdf     -                    -                                    BSDF samples alone
 //
-// Lobes beside the base (core/bsdf/lobe.h) are evaluated at the same samples, of which the diffuse lobe's technique is
-// then at least half, and share with BSDF samples always. Of a surface that transmits light that technique is uniform,
-// in the cap or by area, also below the horizon.
+// By strategy joint the highlights (highlight.h) of lobes beside the base (core/bsdf/lobe.h) are techniques of their
+// own, each by the exact core about its own axes, and what is beside these is found by the diffuse lobe's; where that
+// is not close to the lobes, and by other strategies, light samples share with BSDF samples. Of a surface that
+// transmits light the diffuse technique is uniform, in the cap or by area, also below the horizon.
 //
 // A joint sample adds at most 10 times the light's radiance, 50 times an area light's. Of a cap above the horizon it
 // adds at most 2.5 times the light's mean where the surface has one lobe, 20 times where it has two (7.1, 26, 2.0
@@ -53,6 +54,16 @@ class LightSampler {
    private:
     enum class Technique { none, uniform, projected, pivot, exact };
 
+    /// One of a lobe's highlights over the cap.
+    struct CapHighlight {
+        Frame<float> frame;
+        GgxCap<float> cap;
+        float probability;
+    };
+
+    /// Adds those of the lobes over the cap, each as often as it reflects; whether samples of these and of the diffuse
+    /// technique will do.
+    bool follow_highlights(const Surface& surface, float share_of_base);
     Vec3f sample_in_cap(Technique technique, const Vec2f& u) const;
     float pdf_in_cap(Technique technique, const Vec3f& wi_local) const;
 
@@ -63,11 +74,14 @@ class LightSampler {
     Cap<float> cap_local_{};
     Technique diffuse_technique_ = Technique::none;
     Technique glossy_technique_ = Technique::none;
-    float glossy_probability_ = 0.0f;
+    float glossy_probability_ = 0.0f;  ///< among the first two techniques
     bool shares_with_bsdf_ = true;
     ProjectedCap<float> projected_cap_{};
     Pivot<float> pivot_{};
     GgxCap<float> ggx_cap_{};
+    std::array<CapHighlight, Highlights::most> highlights_;
+    std::size_t highlight_count_ = 0;
+    float highlights_probability_ = 0.0f;  ///< of all these
 };
 
 }  // namespace pivot

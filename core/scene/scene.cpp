@@ -251,6 +251,8 @@ void Scene::commit() {
     if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     ray_tracer_.commit();
+    for (const Shader& shader : shaders_) shader.program.make_image_levels();
+    world_.program.make_image_levels();
     commit_lamps();
     commit_triangle_lights();
     is_committed_ = true;

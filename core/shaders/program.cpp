@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/textures/image.h"
+
 namespace pivot {
 namespace {
 
@@ -60,6 +62,11 @@ std::uint32_t Program::bump_neighbour(float filter_width) {
     const auto index = static_cast<std::uint32_t>(found - bump_widths_.begin());
     if (index == bump_widths_.size()) bump_widths_.push_back(filter_width);
     return 3 + 2 * index;
+}
+
+void Program::make_image_levels() const {
+    for (const Step& step : steps_)
+        if (step.settings.image) step.settings.image->make_levels();
 }
 
 void Program::run(Places places, Registers& registers) const {

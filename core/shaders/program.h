@@ -34,6 +34,9 @@ class Program {
 
     std::span<const float> bump_widths() const { return bump_widths_; }
 
+    /// Makes the smaller copies of the images that its steps look up.
+    void make_image_levels() const;
+
     /// places: as many as there are neighbours, or one. registers: grown to register_count() where they are fewer.
     void run(Places places, Registers& registers) const;
     /// The registers where there is no surface: register_count() numbers.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/bsdf/material.h"
+#include "core/bsdf/tabulated_ndf.h"
 #include "core/shaders/program.h"
 
 namespace pivot {
@@ -21,12 +22,14 @@ struct Shader {
     Program program;
     std::vector<Varying> varying;
     std::optional<std::array<std::uint32_t, 3>> normal;  ///< registers of the shading normal, world space
+    std::optional<std::array<std::uint32_t, 3>> tangent;  ///< of the tangent, world space, of any length
+    std::vector<std::shared_ptr<const TabulatedNdf>> tables;  ///< that its lobes read
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
 
     Shader(const Material& material) : constants(material) {}  // NOLINT: a material is a shader of constants
     Shader(const Material& material, Program runs) : constants(material), program(std::move(runs)) {}
 
-    bool is_constant() const { return varying.empty() && !normal; }
+    bool is_constant() const { return varying.empty() && !normal && !tangent; }
     bool has_varying_emission() const {
         return std::ranges::any_of(
             varying, [](const Varying& v) { return v.number >= emission_place && v.number < emission_place + 3; });

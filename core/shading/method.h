@@ -23,7 +23,7 @@ enum class Method : unsigned char {
     slices_8,
     beam_layers,      ///< slices of the exact core's disk within each cone of a spot's beam
     area_points,      ///< points of an area light, spread as the lobe sees it
-    lobe_directions,  ///< directions of the lobe that meet an area light
+    lobe_directions,  ///< directions of the lobe that meet an area light; points of a lobe without closed forms
     sptd,
     ltc,
     point_set,  ///< light from everywhere

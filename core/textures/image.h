@@ -49,6 +49,9 @@ struct Image {
     std::tuple<Vec3b, Batch> lookup(const ImageLookup& how, const Vec2b& uv, const Vec2b& uv_x,
                                     const Vec2b& uv_y) const;
 
+    /// Makes the smaller copies, if nobody has. A lookup that needs them does so too, but then others wait for it.
+    void make_levels() const;
+
     /// The picture, and copies of it each of half the size of the one before, down to one texel.
     struct Level {
         std::uint32_t width, height;
@@ -64,7 +67,6 @@ struct Image {
     Row linear_row(const Level& level, std::uint32_t y) const;
     void store_row(const Level& level, std::uint32_t y, Row row) const;
     void make_level(const Level& from, const Level& to) const;
-    void make_levels() const;
 
     TexelType type_;
     std::uint32_t channels_;

@@ -34,7 +34,21 @@ def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
     for name, (count, low, high) in pivot_core.LOBES[kind].items():
         drawn = low + (min(high, low + 1) - low) * random.uniform(0.1, 1, count)
         values[name] = tuple(drawn) if count > 1 else float(drawn[0])
+    if kind in pivot_core.LOBES_WITH_NDF:
+        values["ndf"] = two_yarns(*random.uniform((0.1, 0.2, 0.1), (0.2, 0.4, 0.5)))
     return kind, values
+
+
+@functools.cache
+def two_yarns(alpha: float, alpha_along: float, tilt: float) -> pivot_core.TabulatedNdf:
+    """Two lobes that lean to either side."""
+    edges = (np.arange(64) + 0.5) / 32 - 1
+    x, y = np.meshgrid(edges, edges)
+    z = np.sqrt(np.maximum(1 - x * x - y * y, 1e-9))
+    lobes = [
+        z**-4.0 / (1 + ((x / z - shift) / alpha) ** 2 + (y / z / alpha_along) ** 2) ** 2 for shift in (-tilt, tilt)
+    ]
+    return pivot_core.TabulatedNdf(np.where(x * x + y * y < 1, lobes[0] + 0.5 * lobes[1], 0))
 
 
 def materials() -> dict[str, pivot_core.Material]:
@@ -215,11 +229,13 @@ def test_a_base_in_shares_is_the_whole() -> None:
 @pytest.mark.parametrize(
     ("lobes", "said"),
     [
-        ([("velvet", {})], "lobe 'velvet': there is no such kind; there are base, translucent"),
+        ([("velvet", {})], "lobe 'velvet': there is no such kind; there are base, translucent, tabulated"),
         ([("translucent", {"colour": (1, 1, 1)})], "lobe 'translucent': its parameters are color"),
         ([("translucent", {"color": 1.0})], "lobe 'translucent': color must be three numbers"),
         ([("base", {"alpha": 2.0})], "lobe 'base': alpha must be finite and in .0"),
         ([("base", {"dielectric_ior": float("nan")})], "lobe 'base': dielectric_ior must be finite and at least 1"),
+        ([("tabulated", {})], "lobe 'tabulated': ndf must be a TabulatedNdf"),
+        ([("tabulated", {"ndf": 1.0})], "lobe 'tabulated': ndf must be a TabulatedNdf"),
         ([("translucent", {})] * 4, "a material has at most 3 lobes beside its base"),
     ],
 )

@@ -2,6 +2,7 @@
 // beneath its own highlight.
 #pragma once
 
+#include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
 
 namespace pivot {
@@ -17,7 +18,7 @@ struct FurtherBase {
         LobeParameter{"conductor_weight", 1, 0.0f, most}, LobeParameter{"dielectric_weight", 1, 0.0f, most},
         LobeParameter{"dielectric_ior", 1, 1.0f, most},   LobeParameter{"dielectric_tint", 3, 0.0f, most},
         LobeParameter{"multiscatter", 1, 0.0f, 1.0f},     LobeParameter{"weight", 1, 0.0f, most}};
-    static constexpr bool reflects = true, transmits = false;
+    static constexpr bool reflects = true, transmits = false, has_closed_form = true;
 
     BaseOf<T> base;
 
@@ -30,6 +31,12 @@ struct FurtherBase {
     Vec3<T> albedo(const Vec3<T>&) const { return albedo_base(base); }
     Vec3<T> diffuse() const { return base.diffuse; }
     BaseOf<T> closed_form(const Vec3<T>&) const { return base; }
+    void add_highlights(const Vec3f&, Highlights& highlights) const requires std::same_as<T, float> {
+        const Vec3f z(0.0f, 0.0f, 1.0f);
+        highlights.beside += mean_component(base.diffuse);
+        if (base.has_glossy())
+            highlights.add({frame_from_z(z), base.alpha, base.alpha, mean_component(glossy_albedo(base))});
+    }
     FurtherBase blurred(T least_alpha) const { return {pivot::blurred(base, least_alpha)}; }
 };
 

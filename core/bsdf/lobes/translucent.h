@@ -2,6 +2,7 @@
 // Translucent BSDF.
 #pragma once
 
+#include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
 
 namespace pivot {
@@ -13,7 +14,7 @@ struct Translucent {
     };
     static constexpr std::string_view name = "translucent";
     static constexpr std::array parameters{LobeParameter{"color", 3, 0.0f, std::numeric_limits<float>::max()}};
-    static constexpr bool reflects = false, transmits = true;
+    static constexpr bool reflects = false, transmits = true, has_closed_form = true;
 
     Vec3<T> color;
 
@@ -30,6 +31,9 @@ struct Translucent {
     Vec3<T> diffuse() const { return color; }
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = color}, wo_local);
+    }
+    void add_highlights(const Vec3f&, Highlights& highlights) const requires std::same_as<T, float> {
+        highlights.beside += mean_component(color);
     }
     Translucent blurred(T) const { return *this; }
 };

@@ -1,0 +1,134 @@
+#include "core/integrators/lobe_points.h"
+
+#include "core/integrators/direct_light.h"
+#include "core/integrators/light_sampler.h"
+#include "core/shading/method.h"
+
+namespace pivot {
+namespace {
+
+/// Points of a light that its samples follow, and of one that they do not, whose lobe may be anywhere: points by the
+/// lobe must find it.
+struct PointCounts {
+    std::uint32_t fewest, most;
+};
+constexpr PointCounts followed{16, 256}, sought{128, 1024};
+
+/// A direction, and what light from there adds.
+struct LobePoint {
+    Vec3f wi;
+    float reach_m;
+    Rgb value;
+};
+
+/// Point k of so many, of either technique.
+void add_points(const Light& light, const LightSampler& sampler, const SurfacePoint& point, const Surface& lobe,
+                const Vec2f& u_light, const Vec3f& u_lobe, std::vector<LobePoint>& result) {
+    if (const auto place = sampler.sample(u_light); place && place->pdf_omega > 0.0f && point.faces(place->wi)) {
+        const Vec3f wi_local = point.frame.to_local(place->wi);
+        const float share = sampler.shares_with_bsdf() ? balance(place->pdf_omega, pdf_omega(lobe, wi_local)) : 1.0f;
+        result.push_back({place->wi, place->distance_m * shadow_reach,
+                          eval(lobe, wi_local) * place->radiance * (share / place->pdf_omega)});
+    }
+    if (!sampler.shares_with_bsdf()) return;
+    const Vec3f wi_local = sample(lobe, u_lobe.x, Vec2f(u_lobe.y, u_lobe.z)), wi = point.frame.to_world(wi_local);
+    const float pdf = pdf_omega(lobe, wi_local);
+    if (!(pdf > 0.0f) || !point.faces(wi)) return;
+    if (const auto place = intersect_light(light, point.position, wi))
+        result.push_back({wi, place->distance_m * shadow_reach,
+                          eval(lobe, wi_local) * place->radiance * (balance(pdf, sampler.pdf_omega(*place)) / pdf)});
+}
+
+Vec3f lobe_numbers(const FixedPoints& points, PointSet set, std::uint32_t k, std::uint32_t count) {
+    const Vec2f u = points.point(set, k, count);
+    const float turns = (static_cast<float>(k) + 0.5f) * 0.7548777f;  // R2's second ratio: apart from both of u
+    return {turns - std::floor(turns), u.x, u.y};
+}
+
+/// What of the points' sum is seen.
+struct Seen {
+    Rgb whole{0.0f}, seen{0.0f};
+    float squares = 0.0f;
+
+    /// Of evenly spread points, whose error falls like count^(-3/4) at an edge.
+    float variance() const {
+        const float all = mean_component(whole), part = mean_component(seen);
+        if (!(all > 0.0f) || part <= 0.0f || part >= all) return 0.0f;
+        const float inverse_count = squares / (all * all);
+        return part * (all - part) * inverse_count * std::sqrt(inverse_count);
+    }
+};
+
+Seen look(const Scene& scene, const SurfacePoint& point, std::span<const LobePoint> all, bool traces_rays) {
+    std::vector<Ray> rays;
+    for (const LobePoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
+    std::vector<std::uint8_t> occluded(rays.size(), 0);
+    if (traces_rays) scene.occluded(rays, occluded);
+    Seen result;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        result.whole += all[i].value;
+        if (!occluded[i]) result.seen += all[i].value;
+        result.squares += sqr(mean_component(all[i].value));
+    }
+    return result;
+}
+
+}  // namespace
+
+LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+                             const Light& light, const SurfacePoint& point, const Surface& lobe) {
+    const LightSampler sampler(light, point, lobe, LightSampling::joint);
+    const float budget = 0.01f * settings.error_budget_percent;
+    const PointCounts& counts = sampler.shares_with_bsdf() ? sought : followed;
+    LobeReflection result;
+    std::vector<LobePoint> all;
+    for (std::uint32_t count = std::max(points.count(), counts.fewest);; count *= 2) {
+        all.clear();
+        std::array<float, 2> halves{};
+        float squares = 0.0f;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::size_t first = all.size();
+            add_points(light, sampler, point, lobe, points.point(PointSet::lobe_light, k, count),
+                       lobe_numbers(points, PointSet::lobe_direction, k, count), all);
+            float both = 0.0f;
+            for (std::size_t i = first; i < all.size(); ++i) both += mean_component(all[i].value);
+            halves[k % 2] += both;
+            squares += sqr(both);
+        }
+        const float sum = halves[0] + halves[1];
+        // Evenly spread points are off by less than random ones; those that seek a lobe may be as far off.
+        const float spread = sampler.shares_with_bsdf() ? std::sqrt(squares) : 0.0f;
+        result.error = sum > 0.0f ? std::max(std::abs(halves[0] - halves[1]), spread) / sum : 0.0f;
+        const auto n = static_cast<float>(count);
+        for (LobePoint& p : all) p.value /= n;
+        if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
+    }
+    const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
+    result.radiance = seen.seen;
+    result.shadow_variance = seen.variance();
+    return result;
+}
+
+LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+                             const SurfacePoint& point, const Surface& lobe) {
+    Rgb albedo = albedo_base(lobe);
+    for_each_lobe(lobe, [&](const auto& l, const LobeOf<float>&, bool) { albedo += l.albedo(lobe.wo_local); });
+    const std::uint32_t count = std::max(points.count(), followed.fewest);
+    std::vector<LobePoint> all;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const Vec3f u = lobe_numbers(points, PointSet::lobe_world, k, count);
+        const Vec3f wi_local = sample(lobe, u.x, Vec2f(u.y, u.z)), wi = point.frame.to_world(wi_local);
+        const float pdf = pdf_omega(lobe, wi_local);
+        if (pdf > 0.0f && point.faces(wi))
+            all.push_back({wi, std::numeric_limits<float>::infinity(), eval(lobe, wi_local) / pdf});
+    }
+    const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
+    const float whole = mean_component(seen.whole);
+    if (!(whole > 0.0f)) return {};
+    const Rgb light = scene.world() * albedo;
+    const float size = mean_component(abs(light)) / whole;
+    return {light * (mean_component(seen.seen) / whole), error_of_albedo,
+            sqr(size) * std::max(seen.variance(), sqr(whole) * points.missed_variance())};
+}
+
+}  // namespace pivot
