@@ -8,6 +8,8 @@ import addon_utils
 
 from . import engine, panels, properties
 from .chart import operators as chart_operators
+from .ndf import operators as ndf_operators
+from .ndf import panel as ndf_panel
 
 bl_info = {
     "name": "Pivot",
@@ -19,7 +21,7 @@ bl_info = {
     "category": "Render",
 }
 
-_MODULES = (properties, engine, chart_operators, panels)
+_MODULES = (properties, engine, chart_operators, panels, ndf_operators, ndf_panel)
 
 
 def register() -> None:

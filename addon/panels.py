@@ -62,7 +62,7 @@ _BUILT_IN = (
 )
 
 
-class _PivotPanel:
+class PivotPanel:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "render"
@@ -80,7 +80,7 @@ def _columns(panel: Any) -> Any:
     return panel.layout
 
 
-class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
+class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -105,14 +105,14 @@ class PIVOT_RENDER_PT_sampling(_PivotPanel, bpy.types.Panel):
         layout.prop(pivot, "time_limit")
 
 
-class PIVOT_RENDER_PT_chart(_PivotPanel, bpy.types.Panel):
+class PIVOT_RENDER_PT_chart(PivotPanel, bpy.types.Panel):
     bl_label = "Speed and Accuracy"
 
     def draw(self, context: bpy.types.Context) -> None:
         chart_operators.draw(self.layout, context)
 
 
-class PIVOT_RENDER_PT_film(_PivotPanel, bpy.types.Panel):
+class PIVOT_RENDER_PT_film(PivotPanel, bpy.types.Panel):
     bl_label = "Film"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
@@ -122,7 +122,7 @@ class PIVOT_RENDER_PT_film(_PivotPanel, bpy.types.Panel):
         layout.prop(context.scene.render, "film_transparent", text="Transparent")
 
 
-class PIVOT_RENDER_PT_performance(_PivotPanel, bpy.types.Panel):
+class PIVOT_RENDER_PT_performance(PivotPanel, bpy.types.Panel):
     bl_label = "Performance"
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
@@ -135,7 +135,7 @@ class PIVOT_RENDER_PT_performance(_PivotPanel, bpy.types.Panel):
         threads.prop(render, "threads")
 
 
-class PIVOT_VIEWLAYER_PT_passes(_PivotPanel, bpy.types.Panel):
+class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
 
@@ -146,7 +146,7 @@ class PIVOT_VIEWLAYER_PT_passes(_PivotPanel, bpy.types.Panel):
                 column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
 
 
-class PIVOT_VIEWLAYER_PT_own_passes(_PivotPanel, bpy.types.Panel):
+class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
     bl_label = "Pivot"
     bl_context = "view_layer"
 
@@ -157,7 +157,7 @@ class PIVOT_VIEWLAYER_PT_own_passes(_PivotPanel, bpy.types.Panel):
                 column.prop(context.view_layer.pivot, entry.switch)
 
 
-class PIVOT_OBJECT_PT_ray_visibility(_PivotPanel, bpy.types.Panel):
+class PIVOT_OBJECT_PT_ray_visibility(PivotPanel, bpy.types.Panel):
     bl_label = "Ray Visibility"
     bl_context = "object"
     bl_parent_id = "OBJECT_PT_visibility"
@@ -166,7 +166,7 @@ class PIVOT_OBJECT_PT_ray_visibility(_PivotPanel, bpy.types.Panel):
         _columns(self).prop(context.object, "visible_camera", text="Camera")
 
 
-class PIVOT_LIGHT_PT_light(_PivotPanel, bpy.types.Panel):
+class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
     bl_label = "Light"
     bl_context = "data"
 

@@ -1,4 +1,4 @@
-"""scene.pivot and view_layer.pivot: the settings an artist sets, saved with the .blend."""
+"""scene.pivot, view_layer.pivot and material.pivot: the settings an artist sets, saved with the .blend."""
 
 from __future__ import annotations
 
@@ -127,15 +127,42 @@ class PivotPasses(bpy.types.PropertyGroup):
     )
 
 
+def _material_changed(pivot: PivotMaterial, _: bpy.types.Context) -> None:
+    """Blender tells the viewport of its own properties only."""
+    pivot.id_data.update_tag()
+
+
+class PivotMaterial(bpy.types.PropertyGroup):
+    use_ndf_image: BoolProperty(
+        name="Microfacets from Image",
+        description="The image tells how the surface is rough; colors and how metallic it is stay those of the nodes",
+        default=False,
+        update=_material_changed,
+    )
+    ndf_image: PointerProperty(
+        name="Microfacets",
+        description=(
+            "How many microfacets there are of each normal, in the red channel: the middle is the surface's own, "
+            "right is along the tangent, and the edge of the disk is the horizon"
+        ),
+        update=_material_changed,
+        type=bpy.types.Image,
+    )
+
+
 def register() -> None:
     bpy.utils.register_class(PivotSettings)
     bpy.utils.register_class(PivotPasses)
+    bpy.utils.register_class(PivotMaterial)
     bpy.types.Scene.pivot = PointerProperty(type=PivotSettings)
     bpy.types.ViewLayer.pivot = PointerProperty(type=PivotPasses)
+    bpy.types.Material.pivot = PointerProperty(type=PivotMaterial)
 
 
 def unregister() -> None:
+    del bpy.types.Material.pivot
     del bpy.types.ViewLayer.pivot
     del bpy.types.Scene.pivot
+    bpy.utils.unregister_class(PivotMaterial)
     bpy.utils.unregister_class(PivotPasses)
     bpy.utils.unregister_class(PivotSettings)

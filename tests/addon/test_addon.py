@@ -63,6 +63,7 @@ def test_disabling_leaves_nothing(cases: Any) -> None:
     assert left == {
         "settings": False,
         "pass_switches": False,
+        "microfacets": False,
         "engine": False,
         "panels": [],
         "opted_in": [],

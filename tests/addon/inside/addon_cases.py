@@ -50,6 +50,7 @@ def _toggled() -> Any:
     left = {
         "settings": hasattr(bpy.types.Scene, "pivot"),
         "pass_switches": hasattr(bpy.types.ViewLayer, "pivot"),
+        "microfacets": hasattr(bpy.types.Material, "pivot") or hasattr(bpy.types, "PIVOT_OT_ndf_draw"),
         "engine": hasattr(bpy.types, "PivotRenderEngine"),
         "panels": [p.__name__ for p in _panels() if p.__name__.startswith("PIVOT_")],
         "opted_in": [p.__name__ for p in _panels() if "PIVOT" in getattr(p, "COMPAT_ENGINES", ())],

@@ -66,7 +66,7 @@ def _bases(rna: Any) -> Iterator[str]:
 
 
 def _properties(rna: Any) -> set[str]:
-    own = {"pivot"} if rna.identifier in ("Scene", "ViewLayer") else set()  # the addon's
+    own = {"pivot"} if rna.identifier in ("Scene", "ViewLayer", "Material") else set()  # the addon's
     return set(rna.properties.keys()) - {"rna_type"} - own
 
 
