@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..ndf.image import ndf_pixels
 from .image_parts import Tile, frame_shown, image_parts, image_state, opened
 from .image_pixels import associates_alpha, stored_pixels
 
-_Key = tuple[int, int]  # an image's address in Blender, and a frame
+_Key = tuple[int, int | str]  # an image's address in Blender, and a frame, or what else it was read as
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,8 @@ class _Entry:
     """An image as it was read."""
 
     state: Any  # of the image then; None: read it anew
-    picture: Picture | None
-    said: tuple[str, ...]
+    picture: Any  # Picture, or pivot_core.TabulatedNdf; None: there is none
+    said: tuple[str, ...] = ()
 
 
 class ImageCache:
@@ -73,7 +74,7 @@ class ImageTable:
     frame: int  # the scene's
     cache: ImageCache
     shows_frames: bool = False  # whether any picture is one of a sequence or movie
-    _pictures: dict[_Key, Picture | None] = field(default_factory=dict)
+    _pictures: dict[tuple[int, int], Picture | None] = field(default_factory=dict)
 
     def picture(self, image: Any, user: Any, warn: Callable[[str], None]) -> Picture | None:
         """What a node shows; None, and a warning, where there is nothing. user: its bpy.types.ImageUser."""
@@ -88,6 +89,13 @@ class ImageTable:
                 warn(f"image '{image.name}': {text}")
             self._pictures[key] = entry.picture
         return self._pictures[key]
+
+    def ndf(self, image: Any) -> Any:
+        """pivot_core.TabulatedNdf of an image's red channel. Raises ValueError that says what is wrong with it."""
+        state = image_state(image, 0)
+        return self.cache.take(
+            (image.as_pointer(), "ndf"), state, lambda: _Entry(state, self.core.TabulatedNdf(ndf_pixels(image)))
+        ).picture
 
     def _read(self, image: Any, frame: int, state: Any) -> _Entry:
         said: list[str] = []

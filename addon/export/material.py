@@ -8,6 +8,7 @@ import bpy
 
 from ..report import naming
 from .context import Context
+from .microfacets import with_ndf
 from .nodes import Owner, active_tree
 from .program import Program
 from .shader import grey, material_surface
@@ -41,7 +42,10 @@ class MaterialTable:
             name = material.name if material else "none"
             where = f"object '{user.name}', material '{name}'"
             program = Program(self._context.core, self._context.scene, self._context.images)
-            surface = _surface(material, Owner(where, self._context.reporter, program, material))
+            owner = Owner(where, self._context.reporter, program, material)
+            surface = _surface(material, owner)
+            if material is not None:
+                surface = with_ndf(surface, material, owner, self._context)
             self._warn_of_emission(surface, user, name)
             with naming(where, "give its colours and numbers finite values"):
                 id_ = self._context.scene.add_material(name, surface.core_shader(self._context.core))

@@ -39,6 +39,8 @@ class Surface:
     further: tuple[Surface, ...] = ()
     normal: Value | None = None  # of all lobes, world space; None: the mesh's own
     normal_is_own: bool = False  # it is as displacement would turn the mesh's own
+    ndf: Any = None  # pivot_core.TabulatedNdf of all its bases; None: each has its own alpha
+    tangent: Value | None = None  # which way x of the ndf lies, world space
 
     @staticmethod
     def of(program: Program, **given: Any) -> Surface:
@@ -106,13 +108,20 @@ class Surface:
 
     def core_shader(self, core: Any) -> Any:
         """A pivot_core.Material, or a Shader where something varies over the surface."""
+        first = self
         lobes = [("base", surface._base_values(), surface._base_settings()) for surface in self.further]
+        if self.ndf is not None:
+            first = Surface.of(self.program)
+            lobes = [
+                ("tabulated", surface._base_values(), surface._base_settings() | {"ndf": self.ndf})
+                for surface in self.bases()
+            ]
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
-        own = self._base_values() | {"emission": self.emission}
+        own = first._base_values() | {"emission": self.emission}
         material = core.Material(
             **_numbers(own),
-            **self._base_settings(),
+            **first._base_settings(),
             lobes=[(kind, _numbers(values) | settings) for kind, values, settings in lobes],
         )
         for place, (_, values, _) in enumerate(lobes):
@@ -121,6 +130,8 @@ class Surface:
         if self.normal is not None:
             name = "own_normal" if self.normal_is_own else "normal"
             varying[name] = _registers(self.program.registers(self.normal))
+        if self.tangent is not None and lobes:
+            varying["tangent"] = _registers(self.program.registers(self.tangent))
         return core.Shader(material, self.program.program, varying) if varying else material
 
     def _is_light_alone(self) -> bool:

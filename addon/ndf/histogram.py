@@ -126,4 +126,4 @@ def _lobes(size: int, normals: Iterable[tuple[Floats, Floats, Floats]], share: f
         points = sum(values[nodes] * weights for nodes, weights in rings.around(h))
         picture[row] = points.reshape(finer, size, finer).mean(axis=(0, 2))
     x, y = np.meshgrid(pixels, pixels)
-    return np.where(meets_disk(x, y, 1 / size), picture, 0)
+    return np.where(meets_disk(x, y, 1 / size), np.maximum(picture, 0), 0)  # interpolation swings below 0

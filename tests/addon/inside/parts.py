@@ -86,15 +86,15 @@ def clear() -> None:
     size(16, 16)
 
 
-def render_steady(path: Path, engine: str, samples: int = 1) -> None:
-    """Samples at each pixel's centre, as an EXR of 32 bits."""
+def render_steady(path: Path, engine: str, samples: int = 1, filter_px: float = 0.01) -> None:
+    """Samples at each pixel's centre, or about it, as an EXR of 32 bits."""
     scene = bpy.context.scene
     scene.render.engine = engine
     if engine == "CYCLES":
-        scene.cycles.device, scene.cycles.samples, scene.cycles.filter_width = "CPU", samples, 0.01
+        scene.cycles.device, scene.cycles.samples, scene.cycles.filter_width = "CPU", samples, filter_px
         scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
     else:
-        scene.pivot.samples, scene.render.filter_size = samples, 0.01
+        scene.pivot.samples, scene.render.filter_size = samples, filter_px
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
