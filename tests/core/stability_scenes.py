@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import pivot_core
 
+from tests.core import ndf_pictures
 from tests.core.scenes import Floats, add_plane, look_at
 
 SIZE_PX = 12
@@ -26,7 +27,10 @@ INTEGRATORS = (
 
 @dataclass(frozen=True)
 class EdgeScene:
-    """A GGX plane in z = 0 under a sphere light; lengths are in units of `unit_m`, all of it moved by `far_m`."""
+    """A GGX plane in z = 0 under a sphere light; lengths are in units of `unit_m`, all of it moved by `far_m`.
+
+    picture: of its microfacets, in the place of alpha, by name.
+    """
 
     name: str
     alpha: float = 0.3
@@ -35,16 +39,23 @@ class EdgeScene:
     eye: tuple[float, float, float] = (0.0, -2.0, 2.0)
     unit_m: float = 1.0
     far_m: float = 0.0
+    picture: str = ""
+
+    def material(self) -> pivot_core.Material:
+        white = (1.0, 1.0, 1.0)
+        if not self.picture:
+            return pivot_core.Material(alpha=self.alpha, conductor_f0=white, conductor_f90=white)
+        ndf = pivot_core.TabulatedNdf(ndf_pictures.sharp(self.picture))
+        lobe = {"ndf": ndf, "conductor_f0": white, "conductor_f90": white}
+        return pivot_core.Material(lobes=[("tabulated", lobe)])
 
     def render(self, **settings: object) -> Floats:
         """(SIZE_PX, SIZE_PX, 3)"""
         unit, offset = self.unit_m, np.array([self.far_m, self.far_m, 0.0])
         scene = pivot_core.Scene()
-        white = (1.0, 1.0, 1.0)
-        material = pivot_core.Material(alpha=self.alpha, conductor_f0=white, conductor_f90=white)
         plane = np.diag([unit, unit, unit, 1.0]).astype(np.float32)
         plane[:3, 3] = offset
-        scene.add_instances("plane", add_plane(scene), plane[None], [scene.add_material("m", material)])
+        scene.add_instances("plane", add_plane(scene), plane[None], [scene.add_material("m", self.material())])
         position = tuple(unit * np.array(self.light) + offset)
         intensity = (unit * unit * self.radius_m**2,) * 3  # a radiance of 1 / pi
         scene.add_light("light", pivot_core.SphereLight(position, unit * self.radius_m, intensity))
@@ -90,6 +101,8 @@ SCENES = (
     EdgeScene("scene in 1e-4 units", unit_m=1e-4),
     EdgeScene("scene in 1e6 units", unit_m=1e6),
     EdgeScene("1e5 m from the origin", far_m=1e5),
+    EdgeScene("microfacets of one pixel", picture="pixel"),
+    EdgeScene("microfacets of one tilted pixel", picture="tilted pixel"),
 )
 
 
@@ -103,5 +116,7 @@ def edge_renders() -> Iterator[EdgeRender]:
                 reference, bound = scene.in_metres().render(**settings), 3e-3 if scene.far_m else 1e-5
             else:
                 reference = truth
+                if scene.picture:  # their sharp rims are within pixels: noise of the reference too
+                    bound *= 2
             error = float(np.sqrt(np.mean((image - reference) ** 2) / np.mean(reference**2)))
             yield EdgeRender(scene.name, integrator, described, error, bound, bool(np.isfinite(image).all()))
