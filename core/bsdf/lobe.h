@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/bsdf/highlight.h"
 #include "core/bsdf/lobes/further_base.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
@@ -15,7 +16,8 @@ namespace pivot {
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>>;
 
-/// What a kind of lobe must have, T its number type.
+/// What a kind of lobe must have, T its number type. Of floats it may have add_highlights(wo, Highlights&), which adds
+/// GGX lobes that light samples may follow, and what these leave out.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
@@ -40,8 +42,6 @@ concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters,
     /// over. has_closed_form: whether the analytic integrator takes the base for the lobe.
     { lobe.closed_form(w) } -> std::same_as<BaseOf<T>>;
     { L::has_closed_form } -> std::convertible_to<bool>;
-    /// (wo, highlights): adds GGX lobes that light samples may follow, and what these leave out. Of floats.
-    requires !std::same_as<T, float> || requires(Highlights & highlights) { lobe.add_highlights(w, highlights); };
     /// (least alpha): the lobe, its GGX alpha at least that and all else as it was, even how much it reflects.
     { lobe.blurred(u_lobe) } -> std::same_as<L>;
 };

@@ -97,6 +97,20 @@ Vec3<T> sample(const SurfaceOf<T>& surface, T u_lobe, const Vec2<T>& u) {
     return wi_local;
 }
 
+/// What light samples may follow of the lobes beside the base.
+inline Highlights highlights_of(const Surface& surface) {
+    Highlights highlights;
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
+        if constexpr (requires { lobe.add_highlights(surface.wo_local, highlights); }) {
+            lobe.add_highlights(surface.wo_local, highlights);
+        } else {
+            highlights.beside += mean_component(lobe.albedo(surface.wo_local));
+            highlights.are_close = false;
+        }
+    });
+    return highlights;
+}
+
 /// What the pass of diffuse colours shows.
 template <class T>
 Vec3<T> diffuse_color(const SurfaceOf<T>& surface) {

@@ -8,14 +8,6 @@ namespace {
 const Vec3f normal_local(0.0f, 0.0f, 1.0f);
 constexpr float below_one = 1.0f - 0x1p-24f;
 
-Highlights highlights_of(const Surface& surface) {
-    Highlights highlights;
-    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
-        lobe.add_highlights(surface.wo_local, highlights);
-    });
-    return highlights;
-}
-
 /// The diffuse lobes as one, and the strongest of the highlights.
 JointSurface<float> joint_surface_of_all(const Surface& surface) {
     JointSurface<float> joint = joint_surface(surface);

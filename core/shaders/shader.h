@@ -21,8 +21,8 @@ struct Shader {
     Material constants;
     Program program;
     std::vector<Varying> varying;
-    std::optional<std::array<std::uint32_t, 3>> normal;  ///< registers of the shading normal, world space
-    std::optional<std::array<std::uint32_t, 3>> tangent;  ///< of the tangent, world space, of any length
+    std::optional<std::array<std::uint32_t, 3>> normal;       ///< registers of the shading normal, world space
+    std::optional<std::array<std::uint32_t, 3>> tangent;      ///< of the tangent, world space, of any length
     std::vector<std::shared_ptr<const TabulatedNdf>> tables;  ///< that its lobes read
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
 

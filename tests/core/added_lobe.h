@@ -17,7 +17,7 @@ struct Minnaert {
     static constexpr std::string_view name = "minnaert";
     static constexpr std::array parameters{LobeParameter{"color", 3, 0.0f, 1.0f},
                                            LobeParameter{"exponent", 1, 1.0f, 100.0f}};
-    static constexpr bool reflects = true, transmits = false;
+    static constexpr bool reflects = true, transmits = false, has_closed_form = false;
 
     Vec3<T> seen_color;
     T exponent;

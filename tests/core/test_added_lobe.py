@@ -56,7 +56,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     compiler, *flags = compile_command("core/bsdf/surface.cpp")
     sources = [ROOT / "tests/core/added_lobe.cpp", ROOT / "core/bsdf/surface.cpp"]
     made, library = overlay / "added_lobe", BUILD / f"libpivot_{pivot_core.arch}.a"
-    command = [compiler, f"-I{overlay}", *flags, "-Werror", *sources, library, "-o", made]
+    command = [compiler, f"-I{overlay}", *flags, "-Werror", *sources, library, "-ltbb", "-o", made]
     ran = subprocess.run(command, cwd=BUILD, capture_output=True, text=True)
     assert ran.returncode == 0, ran.stderr
     return made
