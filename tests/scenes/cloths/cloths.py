@@ -96,7 +96,7 @@ def main(samples: int) -> None:
     scene.camera.location, scene.camera.data.lens = (0, -7.2, 1.4), 44
     scene.camera.rotation_euler = _towards(scene.camera.location, (0, 0, 1.08))
     scene.collection.objects.link(scene.camera)
-    scene.pivot.samples, scene.pivot.max_bounces = samples, 2
+    scene.pivot.samples, scene.pivot.max_bounces, scene.pivot.filter_glossy = samples, 2, 1.0
     scene.render.resolution_x, scene.render.resolution_y = SIZE_PX
     scene.view_settings.view_transform = "Standard"
     scene.render.filepath = str(Path(__file__).parent / "cloths.png")
@@ -104,4 +104,4 @@ def main(samples: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 128)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)
