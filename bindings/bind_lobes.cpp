@@ -53,7 +53,7 @@ LobeOf<float> to_lobe(float kind, const LobeArguments::value_type::second_type& 
     lobe.kind = kind;
     typename L::Parameters start{};
     std::size_t known = 0, first = 0;
-    if constexpr (requires { typename L::Table; }) {
+    if constexpr (HasTable<L>) {
         start.ndf = set_table<L>(values, material);
         ++known;
     }
@@ -146,7 +146,7 @@ void register_lobes(py::module_& module) {
         py::dict parameters;
         for (const LobeParameter& p : L::parameters)
             parameters[py::str(std::string(p.name))] = py::make_tuple(p.count, p.low, p.high);
-        if constexpr (requires { typename L::Table; }) with_tables.append(py::str(std::string(L::name)));
+        if constexpr (HasTable<L>) with_tables.append(py::str(std::string(L::name)));
         kinds[py::str(std::string(L::name))] = parameters;
     });
     module.attr("LOBES") = kinds;

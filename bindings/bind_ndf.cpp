@@ -21,8 +21,12 @@ template <class Of>
 py::array_t<float> map_directions(const FloatArray& directions, const Of& of) {
     require_shape(directions, "directions", {-1, 3});
     py::array_t<float> result(directions.shape(0));
-    for (py::ssize_t i = 0; i < directions.shape(0); ++i)
-        result.mutable_at(i) = of(normalize(Vec3f(directions.at(i, 0), directions.at(i, 1), directions.at(i, 2))));
+    for (py::ssize_t i = 0; i < directions.shape(0); ++i) {
+        const Vec3f direction(directions.at(i, 0), directions.at(i, 1), directions.at(i, 2));
+        if (!(direction.z >= 0.0f && length_squared(direction) > 0.0f))
+            throw py::value_error("directions must be above the surface: z >= 0");
+        result.mutable_at(i) = of(normalize(direction));
+    }
     return result;
 }
 

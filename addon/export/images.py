@@ -75,6 +75,7 @@ class ImageTable:
     cache: ImageCache
     shows_frames: bool = False  # whether any picture is one of a sequence or movie
     _pictures: dict[tuple[int, int], Picture | None] = field(default_factory=dict)
+    _ndfs: dict[int, Any] = field(default_factory=dict)
 
     def picture(self, image: Any, user: Any, warn: Callable[[str], None]) -> Picture | None:
         """What a node shows; None, and a warning, where there is nothing. user: its bpy.types.ImageUser."""
@@ -91,11 +92,18 @@ class ImageTable:
         return self._pictures[key]
 
     def ndf(self, image: Any) -> Any:
-        """pivot_core.TabulatedNdf of an image's red channel. Raises ValueError that says what is wrong with it."""
-        state = image_state(image, 0)
-        return self.cache.take(
-            (image.as_pointer(), "ndf"), state, lambda: _Entry(state, self.core.TabulatedNdf(ndf_pixels(image)))
-        ).picture
+        """pivot_core.TabulatedNdf of an image's red channel.
+
+        Raises RenderError where it cannot be read, ValueError that says what is wrong with it.
+        """
+        key = image.as_pointer()
+        if key not in self._ndfs:
+            state = image_state(image, 0)
+            entry = self.cache.take(
+                (key, "ndf"), state, lambda: _Entry(state, self.core.TabulatedNdf(ndf_pixels(image)))
+            )
+            self._ndfs[key] = entry.picture
+        return self._ndfs[key]
 
     def _read(self, image: Any, frame: int, state: Any) -> _Entry:
         said: list[str] = []

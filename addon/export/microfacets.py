@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import bpy
 
-from ..report import naming
+from ..report import RenderError, naming
 from .context import Context
 from .nodes import Owner
 from .program import Program, Value
@@ -22,11 +22,14 @@ def with_ndf(surface: Surface, material: bpy.types.Material, owner: Owner, conte
     if image is None:
         owner.reporter.warn(
             f"{owner.name}: its microfacets are to be an image's, but none is chosen, it keeps its roughness. "
-            "Fix: choose one in the material's Microfacets panel"
+            "Fix: choose one in its panel Microfacets from Image"
         )
         return surface
-    with naming(f"{owner.name}, image '{image.name}'", "choose another picture of microfacets, or draw one anew"):
-        table = context.images.ndf(image)
+    try:
+        with naming(f"image '{image.name}'", "choose another picture of microfacets, or draw one anew"):
+            table = context.images.ndf(image)
+    except RenderError as error:
+        raise RenderError(f"{owner.name}, {error}") from error
     surface, exact = surface.within(MAX_LOBES - 1)
     if not exact:
         owner.reporter.warn(

@@ -16,14 +16,25 @@ namespace pivot {
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>>;
 
-/// What a kind of lobe must have, T its number type. Of floats it may have add_highlights(wo, Highlights&), which adds
-/// GGX lobes that light samples may follow, and what these leave out.
+/// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
+template <class L>
+concept HasTable = requires {
+    typename L::Table;
+};
+
+/// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
+/// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
+/// what is no diffuse light.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
     /// As a material has it: a struct of numbers, named in order by L::parameters, and last the AddressOf an
     /// L::Table, if there is such a type; and as it is seen from wo.
     { L::seen(parameters, w) } -> std::same_as<L>;
+    requires !HasTable<L> || requires {
+        lobe.ndf;
+        parameters.ndf;
+    };
     { L::name } -> std::convertible_to<std::string_view>;
     { L::parameters[0] } -> std::convertible_to<LobeParameter>;
     /// Which sides of the surface light may come from: the viewer's, the other, or both.
@@ -52,7 +63,7 @@ template <class L>
 constexpr std::size_t number_count() {
     std::size_t count = 0;
     for (const LobeParameter& parameter : L::parameters) count += parameter.count;
-    if constexpr (requires { typename L::Table; }) count += 3;  // its address, after them
+    if constexpr (HasTable<L>) count += 3;  // its address, after them
     return count;
 }
 

@@ -97,12 +97,27 @@ Vec3<T> sample(const SurfaceOf<T>& surface, T u_lobe, const Vec2<T>& u) {
     return wi_local;
 }
 
+/// Whether sample() draws by a highlight, by this u_lobe.
+template <class T>
+Mask<T> samples_highlight(const SurfaceOf<T>& surface, T u_lobe) {
+    if (!any(surface.has_lobes())) return u_lobe < surface.glossy_probability;
+    T left(u_lobe), rest(1);
+    Mask<T> result = T(0) > T(0);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>& record, const Mask<T>& is_kind) {
+        const T probability = select(is_kind, record.probability, T(0));
+        if constexpr (requires { lobe.highlight_probability(); })
+            result = result || (left >= T(0) && left < probability * lobe.highlight_probability());
+        left -= probability, rest -= probability;
+    });
+    return result || (left >= T(0) && left < max(rest, T(0)) * surface.glossy_probability);
+}
+
 /// What light samples may follow of the lobes beside the base.
 inline Highlights highlights_of(const Surface& surface) {
     Highlights highlights;
     for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
-        if constexpr (requires { lobe.add_highlights(surface.wo_local, highlights); }) {
-            lobe.add_highlights(surface.wo_local, highlights);
+        if constexpr (requires { lobe.add_highlights(highlights); }) {
+            lobe.add_highlights(highlights);
         } else {
             highlights.beside += mean_component(lobe.albedo(surface.wo_local));
             highlights.are_close = false;

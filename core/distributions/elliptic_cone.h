@@ -158,7 +158,7 @@ void put_eigenvalues(GgxCap<T>& g, const FrameProducts<T>& under_inverse, const 
 
 }  // namespace detail
 
-/// wo with wo.z > 0; alphas > 0.
+/// wo with wo.z > 0, which integral() and weights need alone; alphas > 0.
 template <class T>
 GgxCap<T> ggx_cap(const Vec3<T>& wo, const Cap<T>& cap, T alpha_x, T alpha_y) {
     GgxCap<T> g = detail::half_vectors(wo, cap);

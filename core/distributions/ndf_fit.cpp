@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <span>
 
 namespace pivot {
 namespace {
@@ -84,7 +86,11 @@ std::vector<std::vector<Cell>> pyramid(const NdfImage& image) {
 }
 
 /// Cells of which none holds much: where the image is bright they are single pixels.
-std::vector<Cell> cells_of(const NdfImage& image) {
+struct Cells {
+    std::vector<Cell> all;  ///< of mass 1 together
+    double dropped;         ///< what is too near the rim, of all projected area
+};
+Cells cells_of(const NdfImage& image) {
     const std::vector<std::vector<Cell>> levels = pyramid(image);
     std::vector<Cell> cells;
     const double most = 4.0 * levels.back()[0].mass / static_cast<double>(most_cells);
@@ -102,7 +108,7 @@ std::vector<Cell> cells_of(const NdfImage& image) {
     double sum = 0.0;
     for (const Cell& cell : cells) sum += cell.mass;
     for (Cell& cell : cells) cell.mass /= sum;
-    return cells;
+    return {std::move(cells), std::clamp(1.0 - sum, 0.0, 1.0)};
 }
 
 /// A lobe while it is being fitted: its density of slopes is weight / (pi det A) (1 + distance2)^-2, A A' = scale.
@@ -240,7 +246,7 @@ TiltedGgx as_ggx(const Lobe& lobe) {
 }  // namespace
 
 NdfFit fit(const NdfImage& image) {
-    const std::vector<Cell> cells = cells_of(image);
+    const auto [cells, dropped] = cells_of(image);
     if (cells.empty()) return {{TiltedGgx{}}, 1.0f, std::numeric_limits<float>::infinity()};
     Cell all;
     for (const Cell& cell : cells) all.add(cell);
@@ -260,7 +266,7 @@ NdfFit fit(const NdfImage& image) {
         lobes.push_back(added);
     }
     std::erase_if(best, [](const Lobe& lobe) { return lobe.weight < least_weight; });
-    NdfFit result{{}, static_cast<float>(std::min(least, 1.0)), 0.0f};
+    NdfFit result{{}, static_cast<float>(std::min(least + dropped, 1.0)), 0.0f};
     double weight = 0.0;
     for (const Lobe& lobe : best) weight += lobe.weight;
     for (const Lobe& lobe : best) {

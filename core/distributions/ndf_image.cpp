@@ -14,6 +14,9 @@ constexpr float below_one = 1.0f - 0x1p-24f;
 
 void require_ndf(std::size_t size, const std::vector<float>& pixels) {
     if (size == 0 || pixels.size() != size * size) throw std::invalid_argument("it must be square");
+    if (size < min_ndf_size_px)
+        throw std::invalid_argument("it is " + std::to_string(size) + " pixels wide, fewer than " +
+                                    std::to_string(min_ndf_size_px) + ", which tell nothing");
     if (size > max_ndf_size_px)
         throw std::invalid_argument("it is " + std::to_string(size) + " pixels wide, more than " +
                                     std::to_string(max_ndf_size_px) + "; scale it down");

@@ -1,18 +1,20 @@
 // A distribution of microfacet normals as a picture: the hemisphere of normals h seen orthographically, x and y of the
 // square from -1 to 1 those of h. A pixel is its mean over its part of the unit disk; within it D leans towards what
-// its neighbours are, as far as that makes no new extreme.
+// its neighbours are, as far as that makes no new extreme along either axis.
 //
 // [Patapom]   "Solid angle of a pixel", Wakapon wiki: pixels weighted by exact solid angles.
 // [vanLeer77] "Towards the ultimate conservative difference scheme IV": slopes that make no new extreme
 #pragma once
 
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/distributions/ndf_pixel.h"
 
 namespace pivot {
 
-inline constexpr std::size_t max_ndf_size_px = 4096;
+inline constexpr std::size_t min_ndf_size_px = 8, max_ndf_size_px = 4096;
 
 class NdfImage {
    public:

@@ -55,7 +55,7 @@ struct NdfPixelMoments {
 inline NdfPixelMoments moments(const NdfPixel& pixel) {
     NdfPixelMoments sum;
     const double half = 0.5 * (pixel.x1 - pixel.x0);
-    if (half < 0.1 && !pixel.reaches(1.0 - 6.0 * half)) {
+    if (!pixel.reaches(1.0 - 6.0 * half)) {
         // Far from the rim 1 / z hardly bends within a pixel: Gauss and Legendre's 2 x 2 points.
         const double x = 0.5 * (pixel.x0 + pixel.x1), y = 0.5 * (pixel.y0 + pixel.y1), step = half * 0.5773502691896258;
         const double area = 4.0 * half * half;

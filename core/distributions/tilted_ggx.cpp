@@ -1,5 +1,6 @@
 #include "core/distributions/tilted_ggx.h"
 
+#include <algorithm>
 #include <array>
 
 namespace pivot {

@@ -91,7 +91,7 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     if (surface.has_diffuse() && surface.has_glossy())
         glossy_probability_ = std::clamp(glossy_probability_, 0.05f, 0.95f);
     if (!has_lobes) return;
-    glossy_probability_ = std::min(glossy_probability_, 0.5f);
+    glossy_probability_ = surface.has_glossy() ? std::min(glossy_probability_, 0.5f) : 0.0f;
     if (strategy == LightSampling::joint && follow_highlights(surface, total))
         shares_with_bsdf_ = surface.has_glossy() && glossy_technique_ == Technique::uniform;
 }

@@ -17,10 +17,10 @@
 // is not close to the lobes, and by other strategies, light samples share with BSDF samples. Of a surface that
 // transmits light the diffuse technique is uniform, in the cap or by area, also below the horizon.
 //
-// A joint sample adds at most 10 times the light's radiance, 50 times an area light's. Of a cap above the horizon it
-// adds at most 2.5 times the light's mean where the surface has one lobe, 20 times where it has two (7.1, 26, 2.0
-// and 8.9 measured, over 4e7 samples of 40000 surfaces and lights, 5e8 of 60000 area lights;
-// tests/core/test_sample_weights.py).
+// Where there are no lobes beside the base, a joint sample adds at most 10 times the light's radiance, 50 times an area
+// light's. Of a cap above the horizon it adds at most 2.5 times the light's mean where the surface has one lobe, 20
+// times where it has two (7.1, 26, 2.0 and 8.9 measured, over 4e7 samples of 40000 surfaces and lights, 5e8 of 60000
+// area lights; tests/core/test_sample_weights.py).
 //
 // An area lamp is drawn by strategy joint in proportion to what is reflected of its parts, and shares with BSDF samples
 // where these vary less (see area_sampling.h). Else, and a mesh's triangle always, it is drawn uniformly by area,

@@ -190,7 +190,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
             .throughput = throughput,
             .pdf_omega = pdf,
             .goes_on = goes_on,
-            .is_glossy = u_lobe.x < vertices.surface.glossy_probability,
+            .is_glossy = samples_highlight(vertices.surface, u_lobe.x),
             .u_roulette = u_lobe.y};  // free: the first number chose the lobe
 }
 

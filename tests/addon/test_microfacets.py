@@ -41,6 +41,7 @@ def test_a_map_seen_from_afar_is_its_normals(cases: object, folder: Path) -> Non
         ("black", "object 'quad', material 'metal', image 'black': it is black within the unit disk"),
         ("negative", "object 'quad', material 'metal', image 'negative': it has negative pixels"),
         ("oblong", "object 'quad', material 'metal', image 'oblong': it must be square"),
+        ("unread", "object 'quad', material 'metal', image 'unread': it has no pixels"),
         ("none", "object 'quad', material 'metal': its microfacets are to be an image's, but none is chosen"),
     ],
 )

@@ -26,6 +26,7 @@ def directions(azimuth: float) -> Array:
         (np.full((8, 8), np.inf), "it has pixels that are not finite"),
         (np.ones((8, 9)), "it must be square"),
         (np.ones((0, 0)), "it must be square"),
+        (np.ones((7, 7)), "it is 7 pixels wide, fewer than 8, which tell nothing"),
         (np.ones((4097, 4097)), "it is 4097 pixels wide, more than 4096; scale it down"),
     ],
 )
@@ -34,7 +35,7 @@ def test_what_is_no_density_is_refused(pixels: Array, said: str) -> None:
         pivot_core.TabulatedNdf(pixels)
 
 
-@pytest.mark.parametrize("size", [1, 7, 64, 513])
+@pytest.mark.parametrize("size", [8, 11, 64, 513])
 @pytest.mark.parametrize("scale", [1e-20, 1.0, 1e20])
 def test_the_projected_area_is_one(size: int, scale: float) -> None:
     """The integral of D h.z dw, which is D dx dy, rim pixels in part: of even pictures as of steep ones."""

@@ -7,8 +7,8 @@ import flip_evaluator
 import numpy as np
 import pivot_core
 import pytest
-from ndf_pictures import Array, draw, sharp
-from scenes import add_plane, add_sphere, place, render, set_camera
+from ndf_pictures import Array, draw, ggx, sharp
+from scenes import add_plane, add_sphere, look_at, place, render, set_camera
 
 METAL = {"conductor_f0": (0.9, 0.8, 0.6), "conductor_f90": (1.0, 1.0, 1.0)}
 WHITE = {"conductor_f0": (1.0, 1.0, 1.0), "conductor_f90": (1.0, 1.0, 1.0), "multiscatter": True}
@@ -127,3 +127,80 @@ def test_the_picture_lies_along_the_tangent() -> None:
         set_camera(scene, (0, -2, 2.0), size=(16, 16), half_width=0.02)
         seen.append(render(scene, samples=64, max_bounces=0)[..., :3].mean())
     assert seen[1] != pytest.approx(seen[0], rel=0.3)
+
+
+ALONG, ACROSS, TILT = 0.3, 0.08, 0.45  # of a weave: alphas and the slope of its fibres
+
+
+def weave_lit_by(lamp: Array, radius: float, wo: Array, to_lamp: Array) -> Array:
+    """What two tilted GGX lobes, of F = 1, reflect to wo of a sphere of intensity 1, by points of its cap."""
+
+    def sigma(w: Array, tilt: float) -> Array:
+        stretched = np.stack([ACROSS * w[..., 0], ALONG * w[..., 1], w[..., 2] + tilt * w[..., 0]], -1)
+        return (np.linalg.norm(stretched, axis=-1) + stretched[..., 2]) / 2
+
+    def masking(w: Array) -> Array:
+        return np.maximum((sigma(w, TILT) + sigma(w, -TILT)) / 2 / w[..., 2] - 1, 0)
+
+    distance = np.linalg.norm(to_lamp, axis=-1)
+    axis, versine = to_lamp / distance[..., None], 1 - np.sqrt(1 - (radius / distance) ** 2)
+    x = np.cross(axis, (0, 1, 0))
+    x /= np.linalg.norm(x, axis=-1, keepdims=True)
+    y, total, count = np.cross(axis, x), 0.0, 64
+    for k in range(count):
+        z = 1 - versine * (k + 0.5) / count
+        phi, sine = 2 * np.pi * 0.618034 * k, np.sqrt(1 - z * z)
+        wi = axis * z[..., None] + (x * np.cos(phi) + y * np.sin(phi)) * sine[..., None]
+        h = (wi + wo) / np.linalg.norm(wi + wo, axis=-1, keepdims=True)
+        d = sum(ggx(h[..., 0], h[..., 1], h[..., 2] ** 2, ACROSS, ALONG, tilt) / 2 for tilt in (TILT, -TILT))
+        total = total + d / (4 * wo[..., 2] * (1 + masking(wo) + masking(wi)))
+    return total * 2 * np.pi * versine / count / (np.pi * radius**2)
+
+
+@pytest.mark.parametrize("integrator", [monte_carlo, analytic])
+def test_a_weave_is_the_sum_of_its_lobes(integrator: object) -> None:
+    """Its two highlights on a plane, by quadrature."""
+    white = {"conductor_f0": (1, 1, 1), "conductor_f90": (1, 1, 1)}
+    lamp, radius, eye, side_px, half_width = np.array([0, 0, 2.0]), 0.1, (0.0, -0.5, 3.0), 48, 0.9
+    scene = pivot_core.Scene()
+    material = scene.add_material("weave", of_picture(draw(512, ACROSS, ALONG, TILT), **white))
+    scene.add_instances("plane", add_plane(scene, 10.0), place(), [material])
+    scene.add_light("lamp", pivot_core.SphereLight(tuple(lamp), radius, (1, 1, 1)))
+    set_camera(scene, eye, size=(side_px, side_px), half_width=half_width)
+    camera, fine = look_at(eye, (0, 0, 0)).astype(float), 3
+    u = ((np.arange(fine * side_px) + 0.5) / (fine * side_px) * 2 - 1) * half_width
+    across, up = np.meshgrid(u, u)
+    view = camera[:3, 0] * across[..., None] + camera[:3, 1] * up[..., None] - camera[:3, 2]
+    view /= np.linalg.norm(view, axis=-1, keepdims=True)
+    places = camera[:3, 3] - view * (eye[2] / view[..., 2])[..., None]
+    expected = weave_lit_by(lamp, radius, -view, lamp - places).reshape(side_px, fine, side_px, fine).mean((1, 3))
+    seen = integrator(scene).mean(-1)
+    assert seen.mean() == pytest.approx(expected.mean(), rel=5e-3)
+    np.testing.assert_allclose(seen, expected, atol=0.04 * expected.max())
+    peaks = expected.max(axis=0)
+    assert (np.diff(np.sign(np.diff(peaks))) < 0).sum() == 2
+
+
+GLOSSY_RAY = 4  # RayKind of core/shaders/place.h
+
+
+@pytest.mark.parametrize("has_lobe_beside", [False, True])
+def test_its_highlight_sends_glossy_rays(has_lobe_beside: bool) -> None:
+    """Which alone see this world; the diffuse half of it sees none."""
+    program = pivot_core.Program()
+    seen = program.add("ray_is", [], [GLOSSY_RAY])
+    sky = pivot_core.Shader(pivot_core.Material(emission=(1, 1, 1)), program, {"emission": [seen] * 3})
+    lobes = [("base", {"diffuse": (0.5, 0.5, 0.5)})] if has_lobe_beside else []
+    tabulated = ("tabulated", {"ndf": pivot_core.TabulatedNdf(draw(128, 0.1)), **METAL})
+    pictures = []
+    for material in (
+        pivot_core.Material(lobes=[tabulated, *lobes]),
+        pivot_core.Material(alpha=0.1, **METAL, lobes=lobes),
+    ):
+        scene = pivot_core.Scene()
+        scene.add_instances("floor", add_plane(scene, 10.0), place(), [scene.add_material("metal", material)])
+        scene.set_world_shader(sky)
+        set_camera(scene, (0, -2, 2.0), size=(16, 16), half_width=0.02)
+        pictures.append(render(scene, samples=256, max_bounces=0, light_sampling="BSDF")[..., :3].mean())
+    assert pictures[0] == pytest.approx(pictures[1], rel=0.02)
+    assert 0.5 < pictures[0] < 1

@@ -31,7 +31,8 @@ struct FurtherBase {
     Vec3<T> albedo(const Vec3<T>&) const { return albedo_base(base); }
     Vec3<T> diffuse() const { return base.diffuse; }
     BaseOf<T> closed_form(const Vec3<T>&) const { return base; }
-    void add_highlights(const Vec3f&, Highlights& highlights) const requires std::same_as<T, float> {
+    T highlight_probability() const { return base.glossy_probability; }
+    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
         const Vec3f z(0.0f, 0.0f, 1.0f);
         highlights.beside += mean_component(base.diffuse);
         if (base.has_glossy())

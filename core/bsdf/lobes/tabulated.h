@@ -82,10 +82,11 @@ struct Tabulated {
                 .fresnel = fresnel,
                 .glossy_probability = glossy_probability};
     }
+    T highlight_probability() const { return glossy_probability; }
     /// A picture stays as sharp as it is.
     Tabulated blurred(T) const { return *this; }
 
-    void add_highlights(const Vec3f&, Highlights& highlights) const requires std::same_as<T, float> {
+    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
         const auto* table = ndf.template pointer<TabulatedNdf>();
         highlights.beside += mean_component(diffuse_color);
         if (!table || !(glossy_probability > 0.0f)) return;

@@ -32,7 +32,7 @@ struct Translucent {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = color}, wo_local);
     }
-    void add_highlights(const Vec3f&, Highlights& highlights) const requires std::same_as<T, float> {
+    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
         highlights.beside += mean_component(color);
     }
     Translucent blurred(T) const { return *this; }

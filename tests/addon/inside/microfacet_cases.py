@@ -86,12 +86,14 @@ def _reports() -> list[str]:
 
 def _said() -> dict[str, list[str]]:
     result = {}
-    for name in ("black", "negative", "oblong", "none"):
+    for name in ("black", "negative", "oblong", "unread", "none"):
         material, _ = _start("ShaderNodeBsdfGlossy", Roughness=ROUGHNESS)
         material.pivot.use_ndf_image = True
         if name != "none":
             image = bpy.data.images.new(name, 16 if name == "oblong" else 8, 8, float_buffer=True, is_data=True)
             image.pixels.foreach_set(np.full(image.size[0] * 32, -1.0 if name == "negative" else 0.0, np.float32))
+            if name == "unread":
+                image.source, image.filepath = "FILE", "//nowhere.exr"
             material.pivot.ndf_image = image
         result[name] = _reports()
     return result
