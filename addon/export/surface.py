@@ -108,14 +108,10 @@ class Surface:
 
     def core_shader(self, core: Any) -> Any:
         """A pivot_core.Material, or a Shader where something varies over the surface."""
-        first = self
-        lobes = [("base", surface._base_values(), surface._base_settings()) for surface in self.further]
-        if self.ndf is not None:
-            first = Surface.of(self.program)
-            lobes = [
-                ("tabulated", surface._base_values(), surface._base_settings() | {"ndf": self.ndf})
-                for surface in self.bases()
-            ]
+        first, beside, kind, table = self, self.further, "base", {}
+        if self.ndf is not None:  # which the core's own base cannot have
+            first, beside, kind, table = Surface.of(self.program), tuple(self.bases()), "tabulated", {"ndf": self.ndf}
+        lobes = [(kind, surface._base_values(), surface._base_settings() | table) for surface in beside]
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
         own = first._base_values() | {"emission": self.emission}

@@ -1,5 +1,6 @@
 #include "core/integrators/lobe_points.h"
 
+#include "core/integrators/cap_light_shading.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_sampler.h"
 #include "core/shading/method.h"
@@ -15,7 +16,7 @@ struct PointCounts {
 constexpr PointCounts followed{16, 256}, sought{128, 1024};
 
 /// A direction, and what light from there adds.
-struct LobePoint {
+struct WeightedPoint {
     Vec3f wi;
     float reach_m;
     Rgb value;
@@ -23,7 +24,7 @@ struct LobePoint {
 
 /// Point k of so many, of either technique.
 void add_points(const Light& light, const LightSampler& sampler, const SurfacePoint& point, const Surface& lobe,
-                const Vec2f& u_light, const Vec3f& u_lobe, std::vector<LobePoint>& result) {
+                const Vec2f& u_light, const Vec3f& u_lobe, std::vector<WeightedPoint>& result) {
     if (const auto place = sampler.sample(u_light); place && place->pdf_omega > 0.0f && point.faces(place->wi)) {
         const Vec3f wi_local = point.frame.to_local(place->wi);
         const float share = sampler.shares_with_bsdf() ? balance(place->pdf_omega, pdf_omega(lobe, wi_local)) : 1.0f;
@@ -45,30 +46,23 @@ Vec3f lobe_numbers(const FixedPoints& points, PointSet set, std::uint32_t k, std
     return {turns - std::floor(turns), u.x, u.y};
 }
 
-/// What of the points' sum is seen.
+/// The points' sum, and what of it is seen.
 struct Seen {
-    Rgb whole{0.0f}, seen{0.0f};
-    float squares = 0.0f;
+    Rgb radiance{0.0f};
+    VisibleShare share;
 
-    /// Of evenly spread points, whose error falls like count^(-3/4) at an edge.
-    float variance() const {
-        const float all = mean_component(whole), part = mean_component(seen);
-        if (!(all > 0.0f) || part <= 0.0f || part >= all) return 0.0f;
-        const float inverse_count = squares / (all * all);
-        return part * (all - part) * inverse_count * std::sqrt(inverse_count);
-    }
+    float variance() const { return sqr(share.all) * share.variance(); }
 };
 
-Seen look(const Scene& scene, const SurfacePoint& point, std::span<const LobePoint> all, bool traces_rays) {
+Seen look(const Scene& scene, const SurfacePoint& point, std::span<const WeightedPoint> all, bool traces_rays) {
     std::vector<Ray> rays;
-    for (const LobePoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
+    for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
     std::vector<std::uint8_t> occluded(rays.size(), 0);
     if (traces_rays) scene.occluded(rays, occluded);
     Seen result;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        result.whole += all[i].value;
-        if (!occluded[i]) result.seen += all[i].value;
-        result.squares += sqr(mean_component(all[i].value));
+        if (!occluded[i]) result.radiance += all[i].value;
+        result.share.add(mean_component(all[i].value), !occluded[i]);
     }
     return result;
 }
@@ -81,7 +75,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
     const float budget = 0.01f * settings.error_budget_percent;
     const PointCounts& counts = sampler.shares_with_bsdf() ? sought : followed;
     LobeReflection result;
-    std::vector<LobePoint> all;
+    std::vector<WeightedPoint> all;
     for (std::uint32_t count = std::max(points.count(), counts.fewest);; count *= 2) {
         all.clear();
         std::array<float, 2> halves{};
@@ -100,11 +94,11 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         const float spread = sampler.shares_with_bsdf() ? std::sqrt(squares) : 0.0f;
         result.error = sum > 0.0f ? std::max(std::abs(halves[0] - halves[1]), spread) / sum : 0.0f;
         const auto n = static_cast<float>(count);
-        for (LobePoint& p : all) p.value /= n;
+        for (WeightedPoint& p : all) p.value /= n;
         if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
     }
     const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
-    result.radiance = seen.seen;
+    result.radiance = seen.radiance;
     result.shadow_variance = seen.variance();
     return result;
 }
@@ -114,7 +108,7 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
     Rgb albedo = albedo_base(lobe);
     for_each_lobe(lobe, [&](const auto& l, const LobeOf<float>&, bool) { albedo += l.albedo(lobe.wo_local); });
     const std::uint32_t count = std::max(points.count(), followed.fewest);
-    std::vector<LobePoint> all;
+    std::vector<WeightedPoint> all;
     for (std::uint32_t k = 0; k < count; ++k) {
         const Vec3f u = lobe_numbers(points, PointSet::lobe_world, k, count);
         const Vec3f wi_local = sample(lobe, u.x, Vec2f(u.y, u.z)), wi = point.frame.to_world(wi_local);
@@ -123,12 +117,10 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
             all.push_back({wi, std::numeric_limits<float>::infinity(), eval(lobe, wi_local) / pdf});
     }
     const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
-    const float whole = mean_component(seen.whole);
-    if (!(whole > 0.0f)) return {};
+    if (!(seen.share.all > 0.0f)) return {};
     const Rgb light = scene.world() * albedo;
-    const float size = mean_component(abs(light)) / whole;
-    return {light * (mean_component(seen.seen) / whole), error_of_albedo,
-            sqr(size) * std::max(seen.variance(), sqr(whole) * points.missed_variance())};
+    return {light * seen.share.value(), error_of_albedo,
+            sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance())};
 }
 
 }  // namespace pivot

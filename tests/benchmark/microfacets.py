@@ -13,7 +13,7 @@ import pivot_core
 from numpy.typing import NDArray
 
 from tests.core.ndf_pictures import draw, sharp
-from tests.core.scenes import add_sphere, place, set_camera
+from tests.core.scenes import add_sphere, place, render, set_camera
 
 SIDE_PX, SAMPLES, SEEDS = 128, 16, 4
 METAL = {"conductor_f0": (0.9, 0.8, 0.6), "conductor_f90": (1.0, 1.0, 1.0)}
@@ -44,11 +44,8 @@ def ball(material: pivot_core.Material) -> pivot_core.Scene:
 def picture(scene: pivot_core.Scene, **settings: object) -> tuple[NDArray[np.float64], float]:
     """And the CPU seconds that it took."""
     cpu = time.process_time()
-    session = pivot_core.Session(scene, pivot_core.RenderSettings(max_bounces=0, **settings))
-    session.start()
-    while not session.wait(10.0):
-        pass
-    return session.read("Combined")[..., :3].astype(float), time.process_time() - cpu
+    image = render(scene, max_bounces=0, **settings)[..., :3].astype(float)
+    return image, time.process_time() - cpu
 
 
 def beside_ggx() -> None:

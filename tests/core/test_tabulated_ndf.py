@@ -29,11 +29,7 @@ def ball(material: pivot_core.Material, side_px: int = 64) -> pivot_core.Scene:
 
 
 def analytic(scene: pivot_core.Scene) -> Array:
-    session = pivot_core.Session(scene, pivot_core.RenderSettings(integrator="ANALYTIC", samples=4))
-    session.start()
-    while not session.wait(10.0):
-        pass
-    return session.read("Combined")[..., :3].astype(float)
+    return render(scene, integrator="ANALYTIC", samples=4)[..., :3].astype(float)
 
 
 def monte_carlo(scene: pivot_core.Scene) -> Array:
