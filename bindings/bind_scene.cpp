@@ -143,6 +143,14 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
     scene.set_camera(camera);
 }
 
+using MediumShare = std::shared_ptr<Medium>;
+
+Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface) {
+    material.medium = medium.value_or(nullptr);
+    material.has_surface = has_surface;
+    return material;
+}
+
 void register_lights(py::module_& module) {
     py::class_<SphereLight>(module, "SphereLight",
                             "A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk "
@@ -204,9 +212,19 @@ void register_scene(py::module_& module) {
              "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
              "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
-        .def("add_material", &Scene::add_material, py::arg("name"), py::arg("material"), "A Material or a Shader.")
+        .def(
+            "add_material",
+            [](Scene& scene, const string& name, const Shader& material, const optional<MediumShare>& medium,
+               bool has_surface) { return scene.add_material(name, with_medium(material, medium, has_surface)); },
+            py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
+            "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
+            "nothing but the medium is there.")
         .def("add_light", &Scene::add_light, py::arg("name"), py::arg("light"))
-        .def("set_material", &Scene::set_material, py::arg("id"), py::arg("material"))
+        .def(
+            "set_material",
+            [](Scene& scene, std::uint32_t id, const Shader& material, const optional<MediumShare>& medium,
+               bool has_surface) { scene.set_material(id, with_medium(material, medium, has_surface)); },
+            py::arg("id"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true)
         .def("set_light", &Scene::set_light, py::arg("id"), py::arg("light"))
         .def(
             "set_instance_transform",
@@ -235,6 +253,10 @@ void register_scene(py::module_& module) {
             py::arg("radiance"))
         .def("set_world_shader", &Scene::set_world, py::arg("shader"),
              "A Shader whose emission is the light from each direction.")
+        .def(
+            "set_world_medium",
+            [](Scene& scene, const optional<MediumShare>& medium) { scene.set_world_medium(medium.value_or(nullptr)); },
+            py::arg("medium"), "A Medium that fills all space, or None.")
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
              py::arg("clip_end_m") = infinity,

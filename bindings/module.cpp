@@ -13,6 +13,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     module.attr("arch") = std::string(PIVOT_STRING(PIVOT_MODULE)).substr(6);
     module.attr("version") = PIVOT_VERSION;
 
+    register_medium(module);
     register_ndf(module);
     register_material(module);
     register_images(module);

@@ -18,6 +18,7 @@ void register_tables(pybind11::module_& tables);
 void register_shading(pybind11::module_& shading);
 void register_film(pybind11::module_& film);
 
+void register_medium(pybind11::module_& module);
 void register_ndf(pybind11::module_& module);
 void register_material(pybind11::module_& module);
 void register_images(pybind11::module_& module);

@@ -22,6 +22,7 @@ __all__: list[str] = [
     "LOBES_WITH_NDF",
     "MAX_LOBES",
     "Material",
+    "Medium",
     "Program",
     "RenderSettings",
     "Scene",
@@ -31,11 +32,46 @@ __all__: list[str] = [
     "SpotLight",
     "SunLight",
     "TabulatedNdf",
+    "VoxelGrid",
     "arch",
     "ops",
     "run_op",
     "version",
 ]
+
+class VoxelGrid:
+    """
+    Numbers on a regular grid, interpolated linearly. values: (z, y, x) or (z, y, x, 3), at least 0; that at [k, j, i] stands at the point (i, j, k) of grid space, and beyond the outermost they fall to 0 within one voxel. grid_from_object: (4, 4).
+    """
+    def __init__(
+        self,
+        values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        grid_from_object: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> None: ...
+
+class Medium:
+    """
+    Fog. scattering: a list of (sigma_s in 1/m as RGB, anisotropy, phase), phase HENYEY_GREENSTEIN, whose anisotropy is the mean cosine, or PIVOT, whose anisotropy is g_p. absorption: sigma_a in 1/m; emission: radiance per m. density multiplies scattering and absorption, emission_grid the emission.
+    """
+    def __init__(
+        self,
+        *,
+        scattering: collections.abc.Sequence[
+            tuple[
+                typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+                typing.SupportsFloat | typing.SupportsIndex,
+                str,
+            ]
+        ] = [],
+        absorption: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
+        emission: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
+        density: VoxelGrid | None = None,
+        emission_grid: VoxelGrid | None = None,
+    ) -> None: ...
 
 class TabulatedNdf:
     """
@@ -321,9 +357,9 @@ class Scene:
         object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
         """
     def add_light(self, name: str, light: SphereLight | SpotLight | SunLight | AreaLight) -> int: ...
-    def add_material(self, name: str, material: Shader) -> int:
+    def add_material(self, name: str, material: Shader, medium: Medium | None = None, has_surface: bool = True) -> int:
         """
-        A Material or a Shader.
+        A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
         """
     def add_mesh(
         self,
@@ -473,13 +509,23 @@ class Scene:
     def set_light(
         self, id: typing.SupportsInt | typing.SupportsIndex, light: SphereLight | SpotLight | SunLight | AreaLight
     ) -> None: ...
-    def set_material(self, id: typing.SupportsInt | typing.SupportsIndex, material: Shader) -> None: ...
+    def set_material(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        material: Shader,
+        medium: Medium | None = None,
+        has_surface: bool = True,
+    ) -> None: ...
     def set_world(
         self,
         radiance: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
     ) -> None: ...
+    def set_world_medium(self, medium: Medium | None) -> None:
+        """
+        A Medium that fills all space, or None.
+        """
     def set_world_shader(self, shader: Shader) -> None:
         """
         A Shader whose emission is the light from each direction.

@@ -229,6 +229,11 @@ void Scene::set_world(Shader shader) {
     environment_ = std::move(light.environment);
 }
 
+void Scene::set_world_medium(std::shared_ptr<const Medium> medium) {
+    const auto edit = begin_edit();
+    world_medium_ = std::move(medium);
+}
+
 void Scene::set_camera(const Camera& camera) {
     const auto edit = begin_edit();
     require_finite(camera.world_from_camera, "camera");

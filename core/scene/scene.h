@@ -40,6 +40,8 @@ class Scene {
     void remove_light(std::uint32_t id);
     /// Its emission is the light from everywhere.
     void set_world(Shader shader);
+    /// Fills all space; none: nothing does.
+    void set_world_medium(std::shared_ptr<const Medium> medium);
     void set_camera(const Camera& camera);
 
     /// Makes the scene ready for rays, to be called by who holds it. What no edit has touched stays as it is. Of
@@ -137,6 +139,7 @@ class Scene {
     std::vector<std::optional<BentCones>> bent_cones_;  ///< of each instance; empty: not traced
     LightReach bent_cone_reach_;                        ///< that these were traced with
     Shader world_{Material{}};
+    std::shared_ptr<const Medium> world_medium_;
     Environment environment_;
     Camera camera_;
     CameraFacts camera_facts_;

@@ -6,6 +6,7 @@
 
 #include "core/bsdf/material.h"
 #include "core/bsdf/tabulated_ndf.h"
+#include "core/media/medium.h"
 #include "core/shaders/program.h"
 
 namespace pivot {
@@ -24,6 +25,8 @@ struct Shader {
     std::optional<std::array<std::uint32_t, 3>> normal;       ///< registers of the shading normal, world space
     std::optional<std::array<std::uint32_t, 3>> tangent;      ///< of the tangent, world space, of any length
     std::vector<std::shared_ptr<const TabulatedNdf>> tables;  ///< that its lobes read
+    std::shared_ptr<const Medium> medium;                     ///< that fills what it surrounds; none: nothing
+    bool has_surface = true;                                  ///< false: rays pass, and only the medium is there
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
 
     Shader(const Material& material) : constants(material) {}  // NOLINT: a material is a shader of constants
