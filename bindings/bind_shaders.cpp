@@ -74,12 +74,14 @@ py::array_t<float> run_at(const Program& program, const FloatArray& positions_ob
         if (index >= program.register_count())
             throw py::value_error("the program has no register " + std::to_string(index));
     const py::ssize_t count = positions_object.shape(0);
-    VolumePoints points{
-        .positions_object = std::vector<Vec3f>(static_cast<std::size_t>(count)),
-        .attributes = {},
-        .world_from_object = to_transform(object_to_world.data()),
-        .object = {
-            .color = Rgb(color[0], color[1], color[2]), .alpha = color[3], .random = random, .pass_index = pass_index}};
+    VolumePoints points{.positions_object = std::vector<Vec3f>(static_cast<std::size_t>(count)),
+                        .attributes = {},
+                        .world_from_object = to_transform(object_to_world.data()),
+                        .object = {}};
+    points.object.color = Rgb(color[0], color[1], color[2]);
+    points.object.alpha = color[3];
+    points.object.pass_index = pass_index;
+    points.object.random = random;
     std::memcpy(points.positions_object.data(), positions_object.data(),
                 sizeof(Vec3f) * points.positions_object.size());
     for (const auto& [id, values] : attributes) {
