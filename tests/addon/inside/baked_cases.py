@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -31,8 +30,9 @@ def _box() -> Any:
     return mesh
 
 
-def _baked(cube: Any, kind: str, output: str, settings: dict[str, Any], expected: Any) -> Any:
+def _baked(cube: Any, kind: str, output: str | int, settings: dict[str, Any], expected: Any) -> Any:
     """kind, output, settings: of a node. expected: of points in object and world space."""
+    from pivot.core import load
     from pivot.export.baked import bake
     from pivot.export.context import Context
     from pivot.export.images import ImageCache, ImageTable
@@ -40,7 +40,7 @@ def _baked(cube: Any, kind: str, output: str, settings: dict[str, Any], expected
     from pivot.export.program import Program
     from pivot.report import Reporter
 
-    core = sys.modules["pivot_core"]
+    core = load()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     reporter = Reporter(lambda level, text: None, set())
     images = ImageTable(core, 1, ImageCache())
@@ -66,25 +66,27 @@ def _baked(cube: Any, kind: str, output: str, settings: dict[str, Any], expected
     if expected is None:  # on voxels, what the program gives there
         in_grid = np.rint(in_grid)
         points = (in_grid / size * (4, 2, 0.75) + (1, 0, -0.5)).astype(np.float32)
-        wanted = program.program.run_at(points, to_world, [part.index for part in value.parts])
+        generated = {context.scene.attribute_id("generated:"): _generated(points)}
+        registers = [part.index for part in value.parts]
+        wanted = program.program.run_at(points, to_world, registers, attributes=generated)
     else:
         wanted = np.reshape(expected(points, world), (-1, 1 if is_number else 3)) * np.ones((len(points), 1))
     found = grid.at(in_grid)[:, : len(value.parts)]
     return {"found": found.tolist(), "wanted": wanted.clip(0).tolist(), "reports": reporter.warnings}
 
 
+def _generated(points: Any) -> Any:
+    """Over the box that the modifier makes twice as long."""
+    return (points - (1, 0, -0.5)) / (2, 2, 0.75)
+
+
 CASES = {
     "object": ("ShaderNodeTexCoord", "Object", {}, lambda points, world: points),
     "position": ("ShaderNodeNewGeometry", "Position", {}, lambda points, world: world),
-    "generated": (
-        "ShaderNodeTexCoord",
-        "Generated",
-        {},
-        lambda points, world: (points - (1, 0, -0.5)) / (2, 2, 0.75),
-    ),
+    "generated": ("ShaderNodeTexCoord", "Generated", {}, lambda points, world: _generated(points)),
     "color": ("ShaderNodeObjectInfo", "Color", {}, lambda points, world: np.tile(COLOR[:3], (len(points), 1))),
     "random": ("ShaderNodeObjectInfo", "Random", {}, lambda points, world: np.full(len(points), 0.375)),
-    "noise": ("ShaderNodeTexWhiteNoise", "Value", {"noise_dimensions": "3D"}, None),
+    "noise": ("ShaderNodeTexNoise", 0, {}, None),  # of Generated coordinates,
     "attribute": ("ShaderNodeAttribute", "Fac", {"attribute_name": "nothing"}, lambda points, world: 0 * points[:, 0]),
     "incoming": ("ShaderNodeNewGeometry", "Incoming", {}, lambda points, world: 0 * points),
     "camera": ("ShaderNodeCameraData", "View Distance", {}, lambda points, world: np.linalg.norm(world, axis=1)),
