@@ -27,10 +27,12 @@ _OF_SURFACES = """
     normal normal_object true_normal parametric backfacing wireframe tangent fresnel layer_weight_fresnel
     layer_weight_facing
 """
+_OF_INSTANCES = "instance_generated instance_uv particle_index particle_random"
 # Ops that ask for what a place within a volume does not have, and what that is to a user.
 _UNKNOWN = {
     **dict.fromkeys(_OF_RAYS.split(), "the ray or the camera"),
     **dict.fromkeys(_OF_SURFACES.split(), "the surface"),
+    **dict.fromkeys(_OF_INSTANCES.split(), "the instance"),
 }
 
 
@@ -87,7 +89,7 @@ def _lattice(extent: NDArray[np.float64]) -> tuple[tuple[int, int, int], NDArray
     """How many voxels lie along each side of a box, one along what is flat, and how far apart."""
     spacing = extent.max() / (LONGEST - 1)
     counts = np.rint(extent / spacing if spacing > 0 else extent).astype(int) + 1
-    # Of what is flat any spacing does: the voxels fall to 0 within one of it.
+    # What is flat takes any spacing: its voxels fall to 0 within one of it.
     apart = np.where(counts > 1, extent / np.maximum(counts - 1, 1), max(spacing, 1e-6))
     return (int(counts[0]), int(counts[1]), int(counts[2])), apart
 

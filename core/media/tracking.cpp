@@ -6,10 +6,10 @@ namespace {
 /// Beyond this optical depth of a brick, by its majorant, cell by cell is little dearer, and has no noise.
 constexpr float dense_depth = 4.0f;
 
-/// Of Gauss and Legendre's two points from the middle of a part, in its length.
+/// How far Gauss and Legendre's two points are from the middle of a part, in its length.
 constexpr float gauss_offset = 0.28867513f;
 
-/// Of the density, exact within one cell.
+/// The integral of the density, exact within one cell.
 float two_point_integral(const VoxelGrid& density, const GridRay& ray, float near_m, float far_m) {
     const float length_m = far_m - near_m, middle = near_m + 0.5f * length_m, offset = length_m * gauss_offset;
     return 0.5f * length_m * (density.density(ray.at(middle - offset)) + density.density(ray.at(middle + offset)));

@@ -20,6 +20,7 @@ Mesh mesh_of(VolumePoints& points) {
 
 std::vector<float> run_in_volume(const Program& program, VolumePoints points,
                                  std::span<const std::uint32_t> registers) {
+    program.make_image_levels();
     const Mesh mesh = mesh_of(points);
     const CameraFacts no_camera;
     PlaceLanes of_all{};

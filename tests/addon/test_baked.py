@@ -32,7 +32,10 @@ def test_voxels_have_what_nodes_give_there(cases: Any, name: str) -> None:
     assert cases[name]["reports"] == []
 
 
-@pytest.mark.parametrize(("name", "what"), [("incoming", "the ray or the camera"), ("camera", "the ray or the camera")])
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [("incoming", "the ray or the camera"), ("camera", "the ray or the camera"), ("particle", "the instance")],
+)
 def test_what_a_volume_has_not_is_reported(cases: Any, name: str, what: str) -> None:
     text = f"object 'cloud': what depends on {what} is not supported in a volume, which is baked without"
     assert cases[name]["reports"] == [text]

@@ -90,6 +90,21 @@ def test_each_point_has_its_own_attributes() -> None:
         np.testing.assert_array_equal(found, values[:, ::-1])
 
 
+def test_a_volume_looks_pictures_up_as_they_are_stored() -> None:
+    """There is no footprint to look a smaller copy up in."""
+    rng = np.random.default_rng(1)
+    image = pivot_core.Image(rng.uniform(size=(32, 64, 4)).astype(np.float32))
+    program, settings = pivot_core.Program(), [1.0, 0.0, 0.0, 0.0]
+    uv = [(program.add("position", []), 0.0)]
+    uv.append((uv[0][0] + 1, 0.0))
+    first = program.add("image", uv * 3, settings, image=image)
+    points = rng.uniform(size=(500, 3)).astype(np.float32)
+    found = program.run_at(points, np.eye(4), [first + i for i in range(4)])
+    expected = pivot_core.run_op("image", np.tile(points[:, :2], 3), settings, image)
+    assert np.ptp(expected) > 0.5
+    np.testing.assert_array_equal(found, expected)
+
+
 def test_there_is_no_surface_in_a_volume() -> None:
     program = pivot_core.Program()
     names = ("normal", "normal_object", "true_normal", "incoming", "reflection", "backfacing")

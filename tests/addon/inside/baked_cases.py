@@ -89,5 +89,6 @@ CASES = {
     "noise": ("ShaderNodeTexNoise", 0, {}, None),  # of Generated coordinates,
     "attribute": ("ShaderNodeAttribute", "Fac", {"attribute_name": "nothing"}, lambda points, world: 0 * points[:, 0]),
     "incoming": ("ShaderNodeNewGeometry", "Incoming", {}, lambda points, world: 0 * points),
+    "particle": ("ShaderNodeParticleInfo", "Index", {}, lambda points, world: 0 * points[:, 0]),
     "camera": ("ShaderNodeCameraData", "View Distance", {}, lambda points, world: np.linalg.norm(world, axis=1)),
 }
