@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..report import naming
 from .grids import Grids, Lattice
 from .nodes import Owner
+from .phase import pivot_of_mean_cosine
 from .volume import Volume
 from .voxels import evaluate
 
@@ -30,10 +31,10 @@ def core_medium(
             owner.reporter.warn(f"{owner.name}: the colors of its volume vary over space, they are shown as their mean")
         if not np.any(colours) and not glow.any():
             return None
-        glows = lattice is not None and len(glow) > 1
+        glows, is_pivot = lattice is not None and len(glow) > 1, phase == "PIVOT"
         return core.Medium(
             scattering=[
-                (tuple(colour), _anisotropy(core, lobe.mean_cosine, phase), phase)
+                (tuple(colour), pivot_of_mean_cosine(lobe.mean_cosine) if is_pivot else lobe.mean_cosine, phase)
                 for lobe, colour in zip(volume.lobes, colours[:-1].tolist(), strict=True)
                 if any(colour)
             ],
@@ -80,10 +81,3 @@ def _voxel_grid(core: Any, values: NDArray[Any], lattice: Lattice) -> Any:
     x, y, z = lattice.size
     shaped = np.ascontiguousarray(values.reshape(z, y, x, *values.shape[1:]), np.float32)
     return core.VoxelGrid(shaped, lattice.grid_from_object.astype(np.float32))
-
-
-def _anisotropy(core: Any, mean_cosine: float, phase: str) -> float:
-    """What the phase function has this mean cosine at."""
-    if phase == "PIVOT":
-        return float(core.distributions.pivot_phase_of_mean_cosine(np.float64(mean_cosine)))
-    return mean_cosine

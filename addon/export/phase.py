@@ -1,5 +1,6 @@
 """Blender's phase functions as the Henyey-Greenstein function that is nearest to them.
 
+[Dupuy17] Dupuy, Heitz, Belcour, "A Spherical Cap Preserving Parameterization for Spherical Distributions", 2017.
 [Jendersie23] Jendersie and d'Eon, "An Approximate Mie Scattering Function for Fog and Cloud Particles", 2023.
 """
 
@@ -19,6 +20,17 @@ def bounded(g: float) -> float:
 def draine_mean_cosine(g: float, alpha: float) -> float:
     """[Jendersie23], the mean of the cosine over Draine's phase function."""
     return g * (1 + alpha * (3 + 2 * g * g) / 5) / (1 + alpha * (1 + 2 * g * g) / 3)
+
+
+def pivot_of_mean_cosine(g: float) -> float:
+    """g_p of the pivot phase function [Dupuy17, 6.2] of this mean cosine, found by halving."""
+    low, high = 0.0, 1.0
+    while high - low > 1e-9:
+        g_p = (low + high) / 2
+        squared = g_p * g_p
+        mean = (1 + squared) / (2 * g_p) - (1 - squared) ** 2 / (2 * squared) * math.atanh(g_p)
+        low, high = (g_p, high) if mean < abs(g) else (low, g_p)
+    return math.copysign(low, g)
 
 
 def henyey_greenstein_of_backscatter(share: float) -> float:

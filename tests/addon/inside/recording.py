@@ -261,7 +261,7 @@ _recordings: list[Recording] = []
 def _in_place_of_the_core() -> Iterator[None]:
     real = sys.modules["pivot.core"].load()
     core: Any = ModuleType("pivot_core")
-    for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf", "distributions"):
+    for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf"):
         setattr(core, name, getattr(real, name))
     for part in (
         Material,

@@ -17,7 +17,7 @@ COLOR = (0.8, 0.4, 0.2, 1)
 
 def main(folder: Path) -> Any:
     with tempfile.TemporaryDirectory() as cache:
-        domain = _domain(cache)
+        domain = smoke_domain(cache)
         scene = bpy.context.scene
         for frame in range(1, FRAMES + 1):
             scene.frame_set(frame)
@@ -44,7 +44,7 @@ def main(folder: Path) -> Any:
     return result
 
 
-def _domain(cache: str) -> Any:
+def smoke_domain(cache: str) -> Any:
     """A box of 4 x 4 x 6 m, a burning ball within; the camera sees it from above."""
     parts.clear()
     parts.camera((0, 0, 9))
@@ -67,7 +67,7 @@ def _domain(cache: str) -> Any:
     return domain
 
 
-def _principled(name: str, **inputs: Any) -> Any:
+def principled(name: str, **inputs: Any) -> Any:
     material, tree = parts.material(name)
     node = tree.nodes.new("ShaderNodeVolumePrincipled")
     for key, value in inputs.items():
@@ -77,15 +77,15 @@ def _principled(name: str, **inputs: Any) -> Any:
 
 
 def _plain() -> Any:
-    return _principled("plain", Color=COLOR, Density=3)
+    return principled("plain", Color=COLOR, Density=3)
 
 
 def _fire() -> Any:
-    return _principled("fire", Density=0, Blackbody_Intensity=1, Temperature=1500, Temperature_Attribute="flame")
+    return principled("fire", Density=0, Blackbody_Intensity=1, Temperature=1500, Temperature_Attribute="flame")
 
 
 def _colored() -> Any:
-    return _principled("colored", Color_Attribute="color", Color=(1, 1, 1, 1), Absorption_Color=(1, 1, 1, 1))
+    return principled("colored", Color_Attribute="color", Color=(1, 1, 1, 1), Absorption_Color=(1, 1, 1, 1))
 
 
 def _attribute() -> Any:
