@@ -145,8 +145,9 @@ class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Include")
         for entry in PASSES:
-            if not entry.is_own:
-                column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
+            switches = entry.switches(context.view_layer)
+            if entry.settings != "pivot" and switches is not None:
+                column.prop(switches, entry.switch, text=entry.name_5_0)
 
 
 class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
@@ -156,7 +157,7 @@ class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Analytic")
         for entry in PASSES:
-            if entry.is_own:
+            if entry.settings == "pivot":
                 column.prop(context.view_layer.pivot, entry.switch)
 
 

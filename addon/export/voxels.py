@@ -43,7 +43,8 @@ def evaluate(program: Program, values: Sequence[Value], grids: Mapping[str, Arra
 
 def is_of_grids(value: Value) -> bool:
     """Whether grids and numbers alone tell what it is."""
-    return value.is_constant or evaluate(value.program, [value], {}, 1) != [None]
+    [made] = evaluate(value.program, [value], {}, 1)
+    return made is not None
 
 
 def _read(grid: Array | None, count: int) -> list[Array]:

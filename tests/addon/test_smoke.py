@@ -86,12 +86,13 @@ def test_colors_are_those_of_the_smoke(cases: Any, density: np.ndarray) -> None:
 
 
 def test_nodes_reckon_with_grids(cases: Any, density: np.ndarray) -> None:
+    np.testing.assert_allclose(sigma_s(medium(cases, "info")), sigma_s(medium(cases, "colored")), atol=1e-5)
     expected = np.maximum(0.5 * density - 0.125, 0)[..., None] * COLOR
     np.testing.assert_allclose(sigma_s(medium(cases, "attribute")), expected, atol=1e-5)
 
 
 def test_a_domain_has_no_surface(cases: Any) -> None:
-    for name in ("plain", "fire", "colored", "attribute"):
+    for name in ("plain", "fire", "colored", "info", "attribute"):
         assert cases[name]["without_surface"] == [f"{name} in domain"]
         assert cases[name]["instances"] == {"domain": [f"{name} in domain"]}
 

@@ -30,7 +30,7 @@ def main(folder: Path) -> Any:
             "color": np.array(settings.color_grid).tolist(),
             "temperature": np.array(settings.temperature_grid).tolist(),
         }
-        for make in (_plain, _fire, _colored, _attribute, _unlit):
+        for make in (_plain, _fire, _colored, _info, _attribute, _unlit):
             material = make()
             domain.data.materials.clear()
             if material:
@@ -86,6 +86,16 @@ def _fire() -> Any:
 
 def _colored() -> Any:
     return principled("colored", Color_Attribute="color", Color=(1, 1, 1, 1), Absorption_Color=(1, 1, 1, 1))
+
+
+def _info() -> Any:
+    """As colored, by nodes."""
+    material, tree = parts.material("info")
+    scatter, info = (tree.nodes.new(f"ShaderNodeVolume{kind}") for kind in ("Scatter", "Info"))
+    for name in ("Color", "Density"):
+        tree.links.new(info.outputs[name], scatter.inputs[name])
+    tree.links.new(scatter.outputs[0], tree.nodes["Material Output"].inputs["Volume"])
+    return material
 
 
 def _attribute() -> Any:
