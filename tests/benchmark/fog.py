@@ -16,8 +16,9 @@ measured, and how. What Cycles does by default, and what is tried of it:
 
 All are tried with one seed, the best two are measured with all. All are held against one reference, of the newest
 Blender's unbiased tracking by Multiple Importance: what marching is off by is part of its error. The means of Pivot's
-and Cycles' references are to agree within 1 %, or the line is flagged. References are kept in build/fog and used again.
-Writes fog.csv there, and for each scene a PNG of both renderers' pictures and references.
+and Cycles' references are to agree within 1 %, or the line is flagged. References are kept in build/fog and used
+again; --seeds 0 makes those alone. Writes fog.csv there, and for each scene a PNG of both renderers' pictures and
+references.
 """
 
 from __future__ import annotations
@@ -95,6 +96,8 @@ def main() -> None:
             for renderer in first:
                 gallery.make(renderer, name, arguments.samples, range(0), again=not arguments.only)
         renderers[name] = ours + theirs
+        if arguments.seeds == 0:
+            continue
         found = indirect.measure(gallery, renderers[name], name, arguments)
         rows += found
         if found:

@@ -9,7 +9,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -19,12 +18,11 @@ import indirect_scenes as parts
 from indirect_scenes import Triple
 
 WIDTH, HEIGHT = 320, 180
-SHAFTS = Path(__file__).resolve().parents[1] / "scenes" / "shafts"
 
 
 # -- media
-def _volume_tree(name: str, anisotropy: float, color: Triple, density: float) -> tuple[bpy.types.Material, Any]:
-    """A material of fog alone, and its Volume Scatter node."""
+def _scattering(name: str, anisotropy: float, color: Triple, density: float) -> tuple[bpy.types.Material, Any]:
+    """A material without a surface, and its Volume Scatter node."""
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
@@ -38,12 +36,12 @@ def _volume_tree(name: str, anisotropy: float, color: Triple, density: float) ->
 
 def fog(anisotropy: float, density: float, color: Triple = (1.0, 1.0, 1.0)) -> bpy.types.Material:
     """density: 1/m, of which color is scattered and the rest passes: Volume Scatter absorbs nothing."""
-    return _volume_tree("fog", anisotropy, color, density)[0]
+    return _scattering("fog", anisotropy, color, density)[0]
 
 
 def smoke(anisotropy: float, density: float) -> bpy.types.Material:
     """Puffs of up to density, 1/m: a noise of the object's own coordinates through a ramp."""
-    material, scatter = _volume_tree("smoke", anisotropy, (0.85, 0.85, 0.85), density)
+    material, scatter = _scattering("smoke", anisotropy, (0.85, 0.85, 0.85), density)
     tree = material.node_tree
     place, noise = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeTexNoise")
     ramp, scale = tree.nodes.new("ShaderNodeValToRGB"), tree.nodes.new("ShaderNodeMath")
@@ -129,28 +127,19 @@ class FogScene:
     build: Callable[[], None]
     bounces: int = 0  # 0: light scatters once
     several_lights: bool = False
-    heterogeneous: bool = False
 
 
-def _scenes() -> dict[str, FogScene]:
-    spheres = {
-        f"sphere {place} {anisotropy} {name}": FogScene(
-            partial(one_sphere, anisotropy, world=place == "world"), bounces
-        )
-        for bounces, name in ((0, "single"), (2, "2 bounces"))
-        for anisotropy in (0.3, 0.8, 0.9)
-        for place in ("box",)
-    }
-    return spheres | {
-        "sphere world 0.8 single": FogScene(partial(one_sphere, 0.8, world=True)),
-        "lights 0.6 single": FogScene(partial(four_lights, 0.6), several_lights=True),
-        "lights 0.6 2 bounces": FogScene(partial(four_lights, 0.6), 2, several_lights=True),
-        "smoke 0.3 single": FogScene(partial(puffs, 0.3), heterogeneous=True),
-        "smoke 0.3 2 bounces": FogScene(partial(puffs, 0.3), 2, heterogeneous=True),
-    }
-
-
-SCENES = _scenes()
+SCENES = {
+    f"sphere {anisotropy} {name}": FogScene(partial(one_sphere, anisotropy, world=False), bounces)
+    for bounces, name in ((0, "single"), (2, "2 bounces"))
+    for anisotropy in (0.3, 0.8, 0.9)
+} | {
+    "sphere 0.8 world": FogScene(partial(one_sphere, 0.8, world=True)),
+    "lights 0.6 single": FogScene(partial(four_lights, 0.6), several_lights=True),
+    "lights 0.6 2 bounces": FogScene(partial(four_lights, 0.6), 2, several_lights=True),
+    "smoke 0.3 single": FogScene(partial(puffs, 0.3)),
+    "smoke 0.3 2 bounces": FogScene(partial(puffs, 0.3), 2),
+}
 
 
 def build(name: str) -> None:
