@@ -1,4 +1,4 @@
-"""Inside Blender as a module: the scenes of fog_scenes.py by Cycles or Pivot.
+"""Inside Blender as a module: the scenes of fog_scenes.py and shafts_scene.py by Cycles or Pivot.
 
 fog_blender.py < JOBS: does the jobs (see monte_carlo_worker.py).
 """
@@ -15,6 +15,7 @@ import bpy
 import fog_scenes as scenes
 import monte_carlo_renderers as renderers
 import monte_carlo_worker as worker
+import shafts_scene
 
 
 class Cycles(renderers.Cycles):
@@ -29,4 +30,5 @@ class Cycles(renderers.Cycles):
 
 if __name__ == "__main__":
     builders = {name: partial(scenes.build, name) for name in scenes.SCENES}
+    builders |= {name: partial(shafts_scene.build, percentage) for name, percentage in shafts_scene.SIZES.items()}
     worker.main({"cycles": Cycles, "pivot": renderers.Pivot}, builders)
