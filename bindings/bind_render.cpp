@@ -93,7 +93,9 @@ void register_render(py::module_& module) {
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def("read", &read, py::arg("pass_name"),
              "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
-             "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit. Of the analytic "
+             "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
+             "VolumeInd: what media scatter to the camera of light that comes to them "
+             "straight, and of other light. Of the analytic "
              "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
              "predicted.");
 }

@@ -29,7 +29,7 @@ std::vector<Tile> make_tiles(int width, int height) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method;
+    const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 
@@ -39,6 +39,8 @@ void add(Sample& sum, const Sample& sample) {
     sum.normal += sample.normal;
     sum.albedo += sample.albedo;
     sum.emission += sample.emission;
+    sum.volume_direct += sample.volume_direct;
+    sum.volume_indirect += sample.volume_indirect;
     sum.method += sample.method;
     sum.error += sample.error;
     sum.shadow_variance += sample.shadow_variance;

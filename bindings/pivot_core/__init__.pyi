@@ -561,11 +561,11 @@ class Session:
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended. bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.
     """
 
-    bytes_per_pixel: typing.ClassVar[int] = 112
+    bytes_per_pixel: typing.ClassVar[int] = 136
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted.
         """
     def start(self) -> None:
         """

@@ -42,6 +42,8 @@ constexpr Pass passes[] = {
     {"Position", 3, [](const Pixel& pixel, float* out) { put(pixel.center.position, out); }},
     {"DiffCol", 3, write_mean<&Sample::albedo>},
     {"Emit", 3, write_mean<&Sample::emission>},
+    {"VolumeDir", 3, write_mean<&Sample::volume_direct>},
+    {"VolumeInd", 3, write_mean<&Sample::volume_indirect>},
     {"Method", 3, write_mean<&Sample::method>},
     {"Error", 1, [](const Pixel& pixel, float* out) { *out = predicted_error(pixel); }},
 };

@@ -4,6 +4,7 @@
 
 #include "core/integrators/light_choice.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/transmittance.h"
 
 namespace pivot {
 namespace {
@@ -251,9 +252,15 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
     Vec3b radiance(Batch(0.0f));
     for_each_sample(scene, strategy, plan, vertices, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
+                        const Batch visible = scene.visibility(rays), zero(0.0f);
                         // Where no ray is, there is nothing to add.
-                        radiance += select(rays.far_m > Batch(0.0f), samples.radiance * scene.visibility(rays),
-                                           Vec3b(Batch(0.0f)));
+                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
+                        if (!scene.media().is_empty()) {
+                            RayOf<Batch> seen = rays;
+                            seen.far_m = select(visible > zero, rays.far_m, zero);
+                            light = light * transmittance(scene.media(), seen);
+                        }
+                        radiance += light;
                     });
     return radiance;
 }

@@ -16,12 +16,19 @@ struct ReceiverOf {
     Frame<T> frame;
     JointSurface<T> surface;
     LobeAlbedoOf<T> lobes;
+    T around;  ///< what is scattered alike from all sides
 };
 using Receiver = ReceiverOf<Batch>;
 
 template <class T>
 ReceiverOf<T> receiver_at(const VertexOf<T>& vertex) {
-    return {vertex.point.position, vertex.point.frame, joint_surface(vertex.surface), lobe_albedo(vertex.surface)};
+    return {vertex.point.position, vertex.point.frame, joint_surface(vertex.surface), lobe_albedo(vertex.surface),
+            T(0)};
+}
+
+ReceiverOf<float> receiver_at(const Vec3f& position) {
+    const Vec3f up(0.0f, 0.0f, 1.0f);
+    return {position, frame_from_z(up), {up, 1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f}, 1.0f};
 }
 
 /// How much of each light a surface reflects if nothing is in the way, nearly: above 0 for each that reaches it.
@@ -66,6 +73,7 @@ Batch light_importance(const Receiver& receiver, const LightProxy& light) {
         const Batch cos_below = select(large, one, min(max(-axis.z, Batch(0.5f) * (sine - axis.z)), one));
         reflected += receiver.lobes.below * max(cos_below, zero) * sin2;
     }
+    reflected += receiver.around * sin2;
     // Where there is no light, what is above has no meaning.
     return select(light.radiance > zero, reflected * lit * light.radiance, zero);
 }
@@ -158,8 +166,9 @@ void choose_lights(const LightTree& tree, const VertexBatch& vertices, const Bat
     }
 }
 
-float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_t light) {
-    const Receiver receiver = broadcast<ReceiverOf>(receiver_at(vertex));
+namespace {
+
+float choice_probability(const LightTree& tree, const Receiver& receiver, std::size_t light) {
     auto [index, place] = tree.leaf(light);
     float probability = 1.0f;
     while (index >= 0) {
@@ -172,6 +181,25 @@ float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_
         place = node.place_in_parent;
     }
     return probability;
+}
+
+}  // namespace
+
+float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_t light) {
+    return choice_probability(tree, broadcast<ReceiverOf>(receiver_at(vertex)), light);
+}
+
+float choice_probability(const LightTree& tree, const Vec3f& position, std::size_t light) {
+    return choice_probability(tree, broadcast<ReceiverOf>(receiver_at(position)), light);
+}
+
+std::pair<std::size_t, float> choose_light(const LightTree& tree, const Vec3f& position, float u) {
+    const Receiver receiver = broadcast<ReceiverOf>(receiver_at(position));
+    const auto weights_of = [&](const LightTree::Node& node) { return cumulative_weights(node, receiver); };
+    const LightTree::Node& root = tree.nodes()[0];
+    Pick pick{u, 0, 0, 1.0f};
+    descend(tree, root, weights_of(root), weights_of, {&pick, 1});
+    return {pick.light, pick.probability};
 }
 
 }  // namespace pivot

@@ -2,30 +2,12 @@
 
 #include <numeric>
 
-#include "core/integrators/arrival.h"
 #include "core/integrators/direct_light.h"
+#include "core/integrators/fog.h"
 #include "core/integrators/light_sampler.h"
 
 namespace pivot {
 namespace {
-
-constexpr std::uint32_t first_roulette_bounce = 3;
-constexpr float max_roulette_survival = 0.95f;
-
-/// A path whose ray has met a surface.
-template <class T>
-struct PathOf {
-    ArrivalOf<T> arrival;
-    Vec3<T> throughput;  ///< up to the surface
-    T spread;            ///< how much the footprint grows on the way, m for each m
-    T emission_weight;   ///< of what the surface's program emits, beside light samples
-    Word<T> sample;      ///< of the caller's
-};
-
-using Path = PathOf<float>;
-
-/// Paths that have reached the same bounce.
-using Paths = std::vector<Path>;
 
 /// Sorts paths by material, stably, by counting: what a batch's lanes have in common is done once for all.
 void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& first_of) {
@@ -40,16 +22,6 @@ void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& f
     paths.swap(sorted);
 }
 
-/// What all batches of a render's part share.
-struct Work {
-    const Scene& scene;
-    const RenderSettings& settings;
-    std::span<const Sampler> samplers;
-    std::span<Sample> samples;
-    ProgramMemory& memory;
-    std::span<float> min_pdf_omega;  ///< of each path's BSDF samples so far; empty where nothing is blurred
-};
-
 /// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
 float bsdf_weight(const Light& light, LightSampling strategy, const Vertex& vertex, const LightPoint& place,
                   float expected_samples, float bsdf_pdf_omega) {
@@ -59,7 +31,7 @@ float bsdf_weight(const Light& light, LightSampling strategy, const Vertex& vert
 }
 
 /// What a BSDF sample that reaches distance_m meets of the lamps that its vertex sampled.
-Rgb lamps_met(const Work& work, std::span<const SharedLamp> lamps, const Vertex& vertex, const Vec3f& wi,
+Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, const Vertex& vertex, const Vec3f& wi,
               float bsdf_pdf_omega, float distance_m) {
     Rgb radiance(0.0f);
     for (const auto& [index, expected] : lamps) {
@@ -67,9 +39,13 @@ Rgb lamps_met(const Work& work, std::span<const SharedLamp> lamps, const Vertex&
         const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        radiance +=
+        Rgb light =
             place->radiance *
             (bsdf_weight(lamp, work.settings.light_sampling, vertex, *place, expected, bsdf_pdf_omega) / expected);
+        if (fog)
+            light *= fog->transmittance(
+                {.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m});
+        radiance += light;
     }
     return radiance;
 }
@@ -104,17 +80,6 @@ struct PathBatch {
     VertexBatch vertices;
 };
 
-/// How much of a pixel a sample stands for, along an edge.
-float part_of_pixel(const RenderSettings& settings) {
-    return std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(settings.samples)));
-}
-
-/// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
-/// among.
-Batch spread_of_sample(const RenderSettings& settings, const Batch& pdf_omega) {
-    return Batch(part_of_pixel(settings)) * inverse_sqrt(max(Batch(pi<float>) * pdf_omega, Batch(1e-3f)));
-}
-
 /// The least GGX alpha of what paths meet: the less likely their BSDF samples were, the blurrier. [Cycles 4.5
 /// integrator/surface_shader.h:180-202]
 Batch least_alpha(const Work& work, const std::array<const Path*, batch_size>& lanes) {
@@ -148,18 +113,17 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
     const auto at = [](const auto& lanes, std::size_t i) { return Rgb(lanes[0][i], lanes[1][i], lanes[2][i]); };
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
-        sample.radiance = sample.emission = at(emission, i);
+        const Rgb emitted = batch.paths[i].throughput * at(emission, i);
+        sample.radiance += emitted;
+        sample.emission += emitted;
         sample.normal = at(normal, i);
         sample.albedo = at(albedo, i);
     }
 }
 
-/// Adds the light that paths bring by way of their vertices: what bounced may be bounded, at the price of some of it.
-void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, Vec3b light) {
-    if (const float limit = work.settings.clamp_indirect; bounce > 0 && limit > 0.0f) {
-        const Batch size = mean_component(abs(light));
-        light = light * select(size > Batch(limit), Batch(limit) / size, Batch(1.0f));
-    }
+/// Adds the light that paths bring by way of their vertices.
+void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, const Vec3b& unbounded) {
+    const Vec3b light = bounded(work.settings, bounce, unbounded);
     const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
     for (std::size_t i = 0; i < batch.paths.size(); ++i)
         work.samples[batch.paths[i].sample].radiance += Rgb(r[i], g[i], b[i]);
@@ -195,13 +159,13 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 }
 
 /// Follows a bounce's rays to what they meet: lights, the world, or the paths' next vertices.
-void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, const PathBatch& batch,
+void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bounce, const PathBatch& batch,
             const Scattered& scattered, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
     const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
     const WordBatch ray_kind = select(scattered.is_glossy, WordBatch(glossy_ray), WordBatch(diffuse_ray));
     const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
-    const std::array<Path, batch_size> paths =
+    std::array<Path, batch_size> paths =
         unpack<PathOf>({.arrival = {.direction = scattered.rays.direction,
                                     .hit = hit,
                                     .material = batch.lanes.arrival.material,
@@ -217,6 +181,24 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
         sky =
             select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
+    Vec3b through(Batch(1.0f));  // what the media leave on the way
+    std::array<Rgb, batch_size> lamps{};
+    if (fog) {
+        const std::array<Ray, batch_size> rays = unpack<RayOf>(scattered.rays);
+        std::array<Rgb, batch_size> left;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            left[i] = Rgb(1.0f);
+            if (i >= batch.paths.size() || !goes_on[i]) continue;
+            Ray ray = rays[i];
+            ray.far_m = paths[i].arrival.hit.instance == no_instance ? std::numeric_limits<float>::infinity()
+                                                                     : paths[i].arrival.hit.distance_m;
+            Path before = paths[i];
+            before.arrival.footprint_m = store(batch.lanes.arrival.footprint_m)[i];
+            left[i] = fog->cross(ray, bounce + 1, before);
+            paths[i].throughput *= left[i];
+        }
+        through = gather_vector([&](std::size_t i) { return left[i]; });
+    }
     const Lanes pdf_omega = store(scattered.pdf_omega), u_roulette = store(scattered.u_roulette);
     const Lanes survival = store(min(max_component(scattered.throughput), Batch(max_roulette_survival)));
     Lanes r{}, g{}, b{};
@@ -231,8 +213,8 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
         const bool is_met = arrival.hit.instance != no_instance;
         Rgb light(0.0f);
         if (!shared.at(i).empty())
-            light += lamps_met(work, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
-                               is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity());
+            lamps[i] = lamps_met(work, fog, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
+                                 is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity());
         bool shines_by_program = false;
         if (is_met) {
             arrival.material = scene.material_of(arrival.hit);
@@ -245,6 +227,7 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
             }
         }
         r[i] = light.x, g[i] = light.y, b[i] = light.z;
+        if (!(max_component(path.throughput) > 0.0f)) continue;
         // What shines by its program tells how much when its own batch is shaded.
         if (!is_met || (bounce == work.settings.max_bounces && !shines_by_program)) continue;
         if (bounce >= first_roulette_bounce) {
@@ -253,15 +236,17 @@ void follow(const Work& work, const BouncePlan& plan, std::uint32_t bounce, cons
         }
         next.push_back(path);
     }
-    add_light(
-        work, bounce, batch,
-        select(scattered.goes_on, scattered.throughput * (sky + Vec3b(load(r), load(g), load(b))), Vec3b(Batch(0.0f))));
+    add_light(work, bounce, batch,
+              select(scattered.goes_on,
+                     scattered.throughput * (through * (sky + Vec3b(load(r), load(g), load(b))) +
+                                             gather_vector([&](std::size_t i) { return lamps[i]; })),
+                     Vec3b(Batch(0.0f))));
 }
 
 /// Traces a batch of paths from their vertices on, as many as it says: what light they bring there, and where they go
 /// next.
-std::size_t trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t bounce, std::span<const Path> paths,
-                         Paths& next) {
+std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bounce,
+                         std::span<const Path> paths, Paths& next) {
     const PathBatch batch = make_batch(work, bounce, paths);
     const std::size_t count = batch.paths.size();
     if (bounce == 0)
@@ -280,32 +265,41 @@ std::size_t trace_bounce(const Work& work, const BouncePlan& plan, std::uint32_t
             is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
     if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
-    if (any(scattered.goes_on)) follow(work, plan, bounce, batch, scattered, shared, next);
+    if (any(scattered.goes_on)) follow(work, fog, plan, bounce, batch, scattered, shared, next);
     return count;
 }
 
 /// The camera's rays; those that meet nothing end here.
-void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& paths) {
+void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, Paths& paths) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     work.scene.intersect(camera_rays, visible_to_camera, hits);
     const float spread = work.scene.camera().pixel_spread() * part_of_pixel(work.settings);
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
-        Sample& sample = work.samples[i] = {};
+        Sample& sample = work.samples[i];
+        Path path{.arrival = {.direction = camera_rays[i].direction,
+                              .hit = hits[i].value_or(RayHit{}),
+                              .material = 0,
+                              .footprint_m = 0.0f,
+                              .ray_kind = camera_ray},
+                  .throughput = Rgb(1.0f),
+                  .spread = spread,
+                  .emission_weight = 1.0f,
+                  .sample = static_cast<std::uint32_t>(i)};
+        if (fog) {
+            Ray ray = camera_rays[i];
+            if (hits[i]) ray.far_m = hits[i]->distance_m;
+            path.throughput = fog->cross(ray, 0, path);
+        }
         if (hits[i]) {
-            paths.push_back({.arrival = {.direction = camera_rays[i].direction,
-                                         .hit = *hits[i],
-                                         .material = work.scene.material_of(*hits[i]),
-                                         .footprint_m = spread * hits[i]->distance_m,
-                                         .ray_kind = camera_ray},
-                             .throughput = Rgb(1.0f),
-                             .spread = spread,
-                             .emission_weight = 1.0f,
-                             .sample = static_cast<std::uint32_t>(i)});
+            path.arrival.material = work.scene.material_of(*hits[i]);
+            path.arrival.footprint_m = spread * hits[i]->distance_m;
+            paths.push_back(path);
         } else if (work.settings.transparent_film) {
             sample.alpha = 0.0f;
+            if (fog) sample.alpha = 1.0f - mean_component(path.throughput);
         } else {
-            sample.radiance =
-                world_radiance(work.scene.world_view(), camera_rays[i].direction, camera_ray, 0, work.memory.registers);
+            sample.radiance += path.throughput * world_radiance(work.scene.world_view(), camera_rays[i].direction,
+                                                                camera_ray, 0, work.memory.registers);
         }
     }
 }
@@ -314,20 +308,48 @@ void start_paths(const Work& work, std::span<const Ray> camera_rays, Paths& path
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                  std::span<const Sampler> samplers, std::span<Sample> samples) {
+    // Where there are media, paths that first scatter in them have samples of their own behind the others.
+    const bool has_media = !scene.media().is_empty();
+    const std::size_t count = samples.size();
+    std::vector<Sample> own_samples(has_media ? 2 * count : 0);
+    std::vector<Sampler> own_samplers;
+    if (has_media) {
+        own_samplers.assign(samplers.begin(), samplers.end());
+        own_samplers.insert(own_samplers.end(), samplers.begin(), samplers.end());
+    }
+    std::ranges::fill(samples, Sample{});
     ProgramMemory memory;
-    std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? samples.size() : 0,
+    std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? (has_media ? 2 : 1) * count : 0,
                                      std::numeric_limits<float>::infinity());
-    const Work work{scene, settings, samplers, samples, memory, min_pdf_omega};
+    const Work work{scene,
+                    settings,
+                    has_media ? std::span<const Sampler>(own_samplers) : samplers,
+                    has_media ? std::span<Sample>(own_samples) : samples,
+                    memory,
+                    min_pdf_omega};
+    std::optional<Fog> in_media;
+    if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
+    Fog* fog = in_media ? &*in_media : nullptr;
     Paths paths, next;
     std::vector<std::uint32_t> material_counts;
-    start_paths(work, camera_rays, paths);
-    for (std::uint32_t bounce = 0; !paths.empty(); ++bounce) {
+    start_paths(work, fog, camera_rays, paths);
+    for (std::uint32_t bounce = 0; !paths.empty() || (fog && fog->has_paths()); ++bounce) {
         sort_by_material(paths, next, material_counts);
         next.clear();
+        if (fog) fog->scatter(bounce, next);
         const BouncePlan plan = plan_bounce(scene, bounce);
         for (std::span<const Path> left(paths); !left.empty();)
-            left = left.subspan(trace_bounce(work, plan, bounce, left, next));
+            left = left.subspan(trace_bounce(work, fog, plan, bounce, left, next));
         paths.swap(next);
+    }
+    if (!fog) return;
+    fog->finish();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Sample& scattered = own_samples[count + i];
+        samples[i] = own_samples[i];
+        samples[i].radiance += scattered.radiance;
+        samples[i].volume_direct += scattered.volume_direct;
+        samples[i].volume_indirect = scattered.radiance - scattered.volume_direct;
     }
 }
 

@@ -117,6 +117,28 @@ void for_each_batch(std::span<const Ray> rays, const Visit& visit) {
     }
 }
 
+#if RTC_VERSION_MAJOR >= 4
+using Context = RTCRayQueryContext;
+#else
+using Context = RTCIntersectContext;
+#endif
+
+/// What keep_crossing needs beside a hit. The context is Embree's, which comes back to it.
+struct CrossingQuery {
+    Context context;
+    std::vector<Crossing>* found;
+};
+
+/// Keeps a hit and has Embree look on behind it.
+void keep_crossing(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<CrossingQuery*>(arguments->context);
+    const std::uint32_t world_id = RTCHitN_instID(arguments->hit, arguments->N, 0, 0);
+    query->found->push_back({RTCRayN_tfar(arguments->ray, arguments->N, 0),
+                             instance_of(world_id, RTCHitN_geomID(arguments->hit, arguments->N, 0)),
+                             RTCHitN_primID(arguments->hit, arguments->N, 0)});
+    arguments->valid[0] = 0;
+}
+
 void set_transform(RTCGeometry geometry, const Transform& transform) {
     const Mat3<float>& m = transform.linear;
     const Vec3f& t = transform.translation;
@@ -138,6 +160,7 @@ struct RayTracer::Implementation {
         std::vector<Vec3f> positions = {};  ///< of the mesh in world space, of what is still
     };
 
+    bool finds_crossings;
     Owned<RTCDevice> device;
     Owned<RTCScene> world;  ///< still_id is the still scene; id + 1 an instance that is traced in its own space
     Owned<RTCScene> still;  ///< instances in world space: one BVH, and no transforms on the way
@@ -162,7 +185,12 @@ struct RayTracer::Implementation {
 
     void build(RTCScene scene, std::size_t triangle_count) const {
         // Exact at shared edges: no light leaks between triangles.
-        const int flags = RTC_SCENE_FLAG_ROBUST | (triangle_count > max_fast_triangles ? RTC_SCENE_FLAG_COMPACT : 0);
+        int flags = RTC_SCENE_FLAG_ROBUST | (triangle_count > max_fast_triangles ? RTC_SCENE_FLAG_COMPACT : 0);
+#if RTC_VERSION_MAJOR >= 4
+        if (finds_crossings) flags |= RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+        if (finds_crossings) flags |= RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
         rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
         rtcCommitScene(scene);
     }
@@ -257,8 +285,9 @@ struct RayTracer::Implementation {
     }
 };
 
-RayTracer::RayTracer() : implementation_(std::make_unique<Implementation>()) {
+RayTracer::RayTracer(bool finds_crossings) : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
+    self.finds_crossings = finds_crossings;
     self.device.reset(rtcNewDevice(nullptr));
     if (!self.device)
         throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
@@ -334,6 +363,27 @@ bool RayTracer::occluded(const Ray& ray) const {
     RTCRay r = to_embree(ray, visible_to_light);
     trace(rtcOccluded1, implementation_->traced(), r);
     return r.tfar < 0.0f;
+}
+
+void RayTracer::crossings(const Ray& ray, std::vector<Crossing>& found) const {
+    RTCRayHit r{};
+    r.ray = to_embree(ray, ~0u);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    CrossingQuery query{{}, &found};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query.context);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.filter = keep_crossing;
+    arguments.context = &query.context;
+    rtcIntersect1(implementation_->traced(), &r, &arguments);
+#else
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = keep_crossing;
+    rtcIntersect1(implementation_->traced(), &query.context, &r);
+#endif
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/geometry/mesh.h"
 #include "core/math/transform.h"
@@ -37,9 +38,16 @@ inline constexpr std::uint32_t no_instance = ~0u;
 /// Who sees an instance.
 enum Visibility : std::uint32_t { visible_to_camera = 1, visible_to_light = 2, visible_to_all = 3 };
 
+/// Where a ray passes through a surface.
+struct Crossing {
+    float distance_m;
+    std::uint32_t instance, triangle;
+};
+
 class RayTracer {
    public:
-    RayTracer();
+    /// finds_crossings: it serves crossings() alone.
+    explicit RayTracer(bool finds_crossings = false);
     ~RayTracer();
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;
@@ -60,6 +68,9 @@ class RayTracer {
     /// Many at once, in batches of neighbours in the span. hits: one per ray.
     void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
+
+    /// Appends every surface along a ray, in no order, whoever sees it.
+    void crossings(const Ray& ray, std::vector<Crossing>& found) const;
 
     RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const;
     /// 1 for each ray that meets nothing, else 0.

@@ -255,12 +255,24 @@ void Scene::commit() {
     const std::lock_guard lock(committing_);
     if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
+    commit_media();
     ray_tracer_.commit();
     for (const Shader& shader : shaders_) shader.program.make_image_levels();
     world_.program.make_image_levels();
     commit_lamps();
     commit_triangle_lights();
     is_committed_ = true;
+}
+
+void Scene::commit_media() {
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (!instances_[i]) continue;
+        // Faces that only bound a medium are met by no ray but the media's own.
+        const auto has_surface = [&](std::uint32_t material) { return shaders_[material].has_surface; };
+        const bool is_met = std::ranges::any_of(instances_[i]->materials, has_surface);
+        ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), is_met ? instances_[i]->visibility : 0);
+    }
+    media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
 }
 
 void Scene::commit_lamps() {

@@ -10,6 +10,7 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
+#include "core/scene/media.h"
 #include "core/scene/triangle_lights.h"
 #include "core/shaders/world.h"
 
@@ -87,6 +88,8 @@ class Scene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
         ray_tracer_.occluded(rays, occluded_rays);
     }
+    /// What fills space; empty in most scenes.
+    const Media& media() const { return *media_; }
     RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const {
         return ray_tracer_.intersect(rays, from);
     }
@@ -120,6 +123,7 @@ class Scene {
     [[nodiscard]] std::unique_lock<std::mutex> begin_edit();
     std::optional<Light>& light_at(std::uint32_t id);
     void require_materials(const Instance& instance) const;
+    void commit_media();
     void commit_lamps();
     void commit_triangle_lights();
     bool shines(std::size_t instance) const;
@@ -144,6 +148,7 @@ class Scene {
     Camera camera_;
     CameraFacts camera_facts_;
     RayTracer ray_tracer_;
+    std::unique_ptr<const Media> media_;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
     int holders_ = 0;
     std::mutex committing_, tracing_bent_cones_;

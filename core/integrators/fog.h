@@ -1,0 +1,78 @@
+// Paths through media. On each part of a path between surfaces what the media scatter of the lamps is sampled by
+// itself: along the ray by a table of what they scatter, over the lamp jointly with the phase function. Where more
+// light is to come, the path also scatters: a camera's ray goes on to the surface as well, later ones do either.
+#pragma once
+
+#include "core/integrators/fog_lamp.h"
+#include "core/integrators/path.h"
+#include "core/integrators/scatter_table.h"
+
+namespace pivot {
+
+/// A path that has met a particle of a medium, but not yet chosen where to go.
+struct FogVertex {
+    Vec3f position, direction;  ///< direction: of travel so far
+    Phase phase;
+    Rgb throughput;
+    float footprint_m, spread;
+    std::uint32_t sample;
+};
+
+class Fog {
+   public:
+    /// fog_sample: added to a path's sample where it first scatters in fog, so that its light is counted apart.
+    Fog(const Work& work, std::uint32_t fog_sample) : work_(work), fog_sample_(fog_sample) {}
+
+    /// Adds what a path brings of the media along a ray, up to a surface or to no end, and returns what it is worth
+    /// there: 0 where it goes on within the media alone. bounce: of what comes next. path: its throughput, sample and
+    /// footprint at the ray's origin.
+    Rgb cross(const Ray& ray, std::uint32_t bounce, const Path& path);
+
+    /// What the media leave of light along a ray.
+    Rgb transmittance(const Ray& ray);
+
+    /// Whether there are paths that scatter() would send on.
+    bool has_paths() const { return !vertices_.empty(); }
+
+    /// Sends all paths that have scattered on, to vertices of the next bounce: those on surfaces are appended.
+    void scatter(std::uint32_t bounce, Paths& next);
+
+    /// Traces the shadow rays that are left and adds what they bring.
+    void finish();
+
+   private:
+    /// What a lamp scatters along one of the ray's intervals.
+    struct Candidate {
+        const Light* lamp;
+        std::size_t interval;
+        ScatterTable table;
+    };
+    /// A sample of light that a shadow ray decides.
+    struct Shadow {
+        Ray ray;
+        Rgb light;
+        std::uint32_t bounce, sample;
+    };
+
+    void set_mix_in(const MediumInterval& interval, const Ray& ray);
+    void sample_lamps(const Ray& ray, std::uint32_t bounce, const Path& path);
+    void add_candidates(const Light& lamp, const Ray& ray, const Path& path);
+    void sample_candidate(const Ray& ray, std::uint32_t bounce, const Path& path, float weight, std::uint32_t place);
+    std::optional<std::size_t> choose_lamp(const Ray& ray, float u, float u_place, float& probability);
+    Rgb sample_collision(const Ray& ray, std::uint32_t bounce, const Path& path);
+    void sample_shining(const FogVertex& vertex, std::uint32_t bounce);
+    Rgb shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& ray, const std::optional<RayHit>& hit,
+                    float pdf_omega);
+    void add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light);
+
+    const Work& work_;
+    std::uint32_t fog_sample_;
+    MediaAlong along_;
+    MediumMix mix_;
+    std::vector<Rgb> transmittance_;  ///< up to each interval, then beyond the last
+    std::vector<Candidate> candidates_;
+    std::vector<Shadow> shadows_;
+    std::vector<FogVertex> vertices_;
+};
+
+}  // namespace pivot

@@ -1,0 +1,59 @@
+// What the parts of the path tracer share: paths between bounces, and what all batches of a render's part work on.
+#pragma once
+
+#include "core/film/film.h"
+#include "core/integrators/arrival.h"
+#include "core/integrators/settings.h"
+#include "core/integrators/vertex.h"
+
+namespace pivot {
+
+inline constexpr std::uint32_t first_roulette_bounce = 3;
+inline constexpr float max_roulette_survival = 0.95f;
+
+/// A path whose ray has met a surface.
+template <class T>
+struct PathOf {
+    ArrivalOf<T> arrival;
+    Vec3<T> throughput;  ///< up to the surface
+    T spread;            ///< how much the footprint grows on the way, m for each m
+    T emission_weight;   ///< of what the surface's program emits, beside light samples
+    Word<T> sample;      ///< of the caller's
+};
+
+using Path = PathOf<float>;
+
+/// Paths that have reached the same bounce.
+using Paths = std::vector<Path>;
+
+/// What all batches of a render's part share.
+struct Work {
+    const Scene& scene;
+    const RenderSettings& settings;
+    std::span<const Sampler> samplers;
+    std::span<Sample> samples;
+    ProgramMemory& memory;
+    std::span<float> min_pdf_omega;  ///< of each path's BSDF samples so far; empty where nothing is blurred
+};
+
+/// How much of a pixel a sample stands for, along an edge.
+inline float part_of_pixel(const RenderSettings& settings) {
+    return std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(settings.samples)));
+}
+
+/// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
+/// among.
+template <class T>
+T spread_of_sample(const RenderSettings& settings, const T& pdf_omega) {
+    return T(part_of_pixel(settings)) * inverse_sqrt(max(T(pi<float>) * pdf_omega, T(1e-3f)));
+}
+
+/// Light that bounced may be bounded, at the price of some of it.
+template <class T>
+Vec3<T> bounded(const RenderSettings& settings, std::uint32_t bounce, const Vec3<T>& light) {
+    if (bounce == 0 || !(settings.clamp_indirect > 0.0f)) return light;
+    const T size = mean_component(abs(light)), limit(settings.clamp_indirect);
+    return light * select(size > limit, limit / size, T(1));
+}
+
+}  // namespace pivot

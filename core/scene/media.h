@@ -1,0 +1,77 @@
+// Which media a ray crosses, and where. The world's is everywhere; another fills what the faces of its material
+// surround. Where several overlap they add.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/scene/instance.h"
+#include "core/scene/ray_tracer.h"
+#include "core/shaders/shader.h"
+
+namespace pivot {
+
+/// A medium where it stands.
+struct PlacedMedium {
+    std::shared_ptr<const Medium> medium;
+    Transform object_from_world;  ///< to the space that its grids are placed in
+    Vec3f low, high;              ///< of world space, around it
+};
+
+/// A part of a ray in which the media are the same.
+struct MediumInterval {
+    float near_m, far_m;
+    std::uint32_t first, count;  ///< places in MediaAlong::active
+};
+
+/// What a ray crosses, in order; and room to find it with, for rays to come.
+struct MediaAlong {
+    std::vector<MediumInterval> intervals;
+    std::vector<std::uint32_t> active;  ///< ids of placed media
+    std::vector<Crossing> crossings;
+    struct Passage {
+        float distance_m;
+        std::uint32_t medium;
+        int step;  ///< 1 where the ray enters, -1 where it leaves
+    };
+    std::vector<Passage> passages;
+    std::vector<int> depth;  ///< of each medium; 0 between rays
+
+    std::span<const std::uint32_t> active_in(const MediumInterval& interval) const {
+        return std::span(active).subspan(interval.first, interval.count);
+    }
+};
+
+class Media {
+   public:
+    Media(std::shared_ptr<const Medium> world, std::span<const std::unique_ptr<const Mesh>> meshes,
+          std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders);
+
+    /// No media at all: rays need not ask.
+    bool is_empty() const { return placed_.empty(); }
+    const PlacedMedium& at(std::uint32_t id) const { return placed_[id]; }
+
+    /// The media between a ray's origin and its far_m. A ray starts within what it leaves more often than
+    /// it enters, and stays within what it enters and does not leave.
+    void find_along(const Ray& ray, MediaAlong& along) const;
+
+   private:
+    struct Boundary {
+        const Mesh* mesh;
+        const Instance* instance;
+        std::vector<std::uint32_t> medium_of_slot;  ///< ids; none: no_medium
+    };
+    static constexpr std::uint32_t no_medium = ~0u;
+
+    /// Whether a ray that crosses the triangle so enters.
+    MediaAlong::Passage passage(const Ray& ray, const Crossing& crossing) const;
+
+    std::vector<PlacedMedium> placed_;  ///< the world's comes first
+    bool has_world_ = false;
+    std::vector<Boundary> boundaries_;
+    std::unique_ptr<RayTracer> tracer_;  ///< of the boundaries; none where only the world is filled
+};
+
+}  // namespace pivot

@@ -1,0 +1,38 @@
+// What several media are together.
+#pragma once
+
+#include "core/scene/media.h"
+
+namespace pivot {
+
+/// Coefficients and lobes at a place, or anywhere in homogeneous media.
+struct MediumMix {
+    Rgb sigma_s, sigma_t;  ///< 1/m
+    Rgb emission;          ///< radiance per m
+    std::vector<ScatterLobe> lobes;
+    float total_weight = 0.0f;  ///< of all lobes, see weight()
+
+    /// How often a lobe is chosen, relative to each other.
+    static float weight(const ScatterLobe& lobe) { return mean_component(lobe.sigma_s); }
+    bool scatters() const { return total_weight > 0.0f; }
+    /// Of all lobes, at mu = cos to the direction of travel: sigma_s times phase function, 1/(m sr).
+    Rgb scattered(float mu) const {
+        Rgb sum(0.0f);
+        for (const ScatterLobe& lobe : lobes) sum += eval(lobe.phase, mu) * lobe.sigma_s;
+        return sum;
+    }
+    /// The density of directions of a lobe that is chosen by its weight.
+    float pdf_omega(float mu) const {
+        float sum = 0.0f;
+        for (const ScatterLobe& lobe : lobes) sum += weight(lobe) * eval(lobe.phase, mu);
+        return sum / total_weight;
+    }
+};
+
+/// Sets a mix to what the media are at a place.
+void set_mix(MediumMix& mix, const Media& media, std::span<const std::uint32_t> ids, const Vec3f& position);
+
+/// Whether the media are the same everywhere.
+bool are_homogeneous(const Media& media, std::span<const std::uint32_t> ids);
+
+}  // namespace pivot
