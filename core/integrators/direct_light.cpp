@@ -4,7 +4,7 @@
 
 #include "core/integrators/light_choice.h"
 #include "core/integrators/light_sampler.h"
-#include "core/integrators/transmittance.h"
+#include "core/integrators/media_ray.h"
 
 namespace pivot {
 namespace {
@@ -258,7 +258,8 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
                         if (!scene.media().is_empty()) {
                             RayOf<Batch> seen = rays;
                             seen.far_m = select(visible > zero, rays.far_m, zero);
-                            light = light * transmittance(scene.media(), seen);
+                            light = light * transmittance(scene.media(), seen,
+                                                          stream_seed(vertices.sampler, plan.dimensions.base));
                         }
                         radiance += light;
                     });

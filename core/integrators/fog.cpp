@@ -2,7 +2,6 @@
 
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_choice.h"
-#include "core/integrators/transmittance.h"
 
 namespace pivot {
 namespace {
@@ -33,21 +32,6 @@ std::size_t node_count(const MediumMix& mix) {
     return sharpest > 0.95f ? 32 : sharpest > 0.85f ? 16 : 8;
 }
 
-/// exp(-sigma_t length), where 0 times an endless length is 0.
-Rgb transmittance_over(const Rgb& sigma_t, float length_m) {
-    Rgb left(1.0f);
-    for (int c = 0; c < 3; ++c)
-        if (sigma_t[c] > 0.0f) left[c] = std::exp(-sigma_t[c] * length_m);
-    return left;
-}
-
-Vec3b transmittance_over(const Rgb& sigma_t, const Batch& length_m) {
-    const auto left = [&](float sigma) { return exp(Batch(-sigma) * length_m); };
-    const Batch red = left(sigma_t.x);
-    if (sigma_t.x == sigma_t.y && sigma_t.x == sigma_t.z) return Vec3b(red);
-    return {red, left(sigma_t.y), left(sigma_t.z)};
-}
-
 /// About a direction of travel, by the phase function's cosine.
 Vec3f around(const Vec3f& direction, const Vec2f& cos_sin, float u) {
     const float phi = 2.0f * pi<float> * u;
@@ -59,68 +43,68 @@ bool is_usable(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
 
 }  // namespace
 
-Rgb Fog::transmittance(const Ray& ray) { return pivot::transmittance(work_.scene.media(), ray, along_, mix_); }
-
-void Fog::set_mix_in(const MediumInterval& interval, const Ray& ray) {
-    set_mix(mix_, work_.scene.media(), along_.active_in(interval), ray.origin);
+Rgb Fog::transmittance(const Ray& ray, std::uint32_t sample, std::uint32_t dimension) {
+    RandomStream stream{stream_seed(work_.samplers[sample], dimension)};
+    shadow_ray_.follow(ray, &stream);
+    return shadow_ray_.through();
 }
 
 Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path) {
-    work_.scene.media().find_along(ray, along_);
-    if (along_.intervals.empty()) return Rgb(1.0f);
-    transmittance_.assign(1, Rgb(1.0f));
-    Rgb emitted(0.0f);
-    bool scatters = false;
-    for (const MediumInterval& interval : along_.intervals) {
-        set_mix_in(interval, ray);
-        const float length_m = interval.far_m - interval.near_m;
-        const Rgb left = transmittance_over(mix_.sigma_t, length_m);
-        for (int c = 0; c < 3; ++c) {
-            if (mix_.emission[c] == 0.0f) continue;
-            const float sigma = mix_.sigma_t[c], depth = sigma * length_m;
-            emitted[c] += transmittance_.back()[c] * mix_.emission[c] *
-                          (depth > 1e-3f ? -std::expm1(-depth) / sigma : length_m * (1.0f - 0.5f * depth));
-        }
-        scatters = scatters || mix_.scatters();
-        transmittance_.push_back(transmittance_.back() * left);
-    }
-    if (max_component(abs(emitted)) > 0.0f) {
+    RandomStream stream{stream_seed(work_.samplers[path.sample], FogDimensions(bounce).collision())};
+    ray_.follow(ray, &stream);
+    if (ray_.size() == 0) return Rgb(1.0f);
+    if (const Rgb emitted = ray_.emitted(); max_component(abs(emitted)) > 0.0f) {
         const Rgb light = bounded(work_.settings, bounce, path.throughput * emitted);
         work_.samples[path.sample].radiance += light;
         if (bounce == 0) work_.samples[path.sample].emission += light;
     }
     const std::uint32_t last = work_.settings.max_bounces;
-    if (!scatters || bounce > last) return transmittance_.back();
-    sample_lamps(ray, bounce, path);
-    if (bounce == last && !work_.scene.has_unsampled_light()) return transmittance_.back();
-    return sample_collision(ray, bounce, path);
+    if (!ray_.scatters() || bounce > last) return ray_.through();
+    sample_lamps(bounce, path);
+    if (bounce == last && !work_.scene.has_unsampled_light()) return ray_.through();
+    return sample_collision(bounce, path, stream);
 }
 
 // ---- lamps
 
-void Fog::add_candidates(const Light& lamp, const Ray& ray, const Path& path) {
-    for (std::size_t i = 0; i < along_.intervals.size(); ++i) {
-        const MediumInterval& interval = along_.intervals[i];
-        const Rgb before = path.throughput * transmittance_[i];
+void Fog::add_candidates(const Light& lamp, const Path& path) {
+    for (std::size_t i = 0; i < ray_.size(); ++i) {
+        const Rgb before = path.throughput * ray_.before(i);
         if (!(max_component(before) > 0.0f)) return;
-        set_mix_in(interval, ray);
+        ray_.set_typical_mix(i, mix_);
         if (!mix_.scatters()) continue;
-        const FogPart part{work_.scene.media(), along_.active_in(interval), mix_, ray, interval.near_m, interval.far_m};
+        const FogPart part{ray_, i, mix_};
         const auto lit = lit_part(lamp, part);
         if (!lit) continue;
         const Vec3b worth = broadcast(before);
+        const bool is_even = ray_.is_homogeneous(i);
+        // Where the density varies its integral is summed from node to node.
+        float depth_m = 0.0f, reached_m = ray_.interval(i).near_m, density_there = 1.0f;
         const auto scattered = [&](const Batch& distance_m) {
-            const Vec3b left = transmittance_over(mix_.sigma_t, distance_m - Batch(interval.near_m));
-            return mean_component(abs(worth * left * scattered_light(lamp, part, distance_m)));
+            Vec3b light =
+                worth * scattered_light(lamp, part, distance_m) * transmittance_to_lamp(lamp, part, distance_m);
+            Batch length_m = distance_m - Batch(ray_.interval(i).near_m);
+            if (!is_even) {
+                const Batch relative = ray_.relative_density(i, mix_, distance_m);
+                const Lanes distances = store(distance_m), densities = store(relative);
+                Lanes depths;
+                for (std::size_t k = 0; k < batch_size; ++k) {
+                    depth_m += 0.5f * (density_there + densities[k]) * (distances[k] - reached_m);
+                    reached_m = distances[k], density_there = densities[k], depths[k] = depth_m;
+                }
+                length_m = load(depths);
+                light = light * relative;
+            }
+            return mean_component(abs(light * transmittance_over(mix_.sigma_t, length_m)));
         };
-        const ScatterTable table(distance_map(lamp, part, lit->first, lit->second), node_count(mix_), scattered);
+        const std::size_t nodes = is_even ? node_count(mix_) : ScatterTable::max_nodes;
+        const ScatterTable table(distance_map(lamp, part, lit->first, lit->second), nodes, scattered);
         if (table.sum() > 0.0f) candidates_.push_back({&lamp, i, table});
     }
 }
 
-void Fog::sample_candidate(const Ray& ray, std::uint32_t bounce, const Path& path, float weight, std::uint32_t place) {
+void Fog::sample_candidate(std::uint32_t bounce, const Path& path, float weight, std::uint32_t place) {
     if (candidates_.empty()) return;
-    const LightSampling strategy = work_.settings.light_sampling;
     const Sampler& sampler = work_.samplers[path.sample];
     const std::uint32_t dimension = FogDimensions(bounce).lamp(place);
     const Vec2f u = sampler.point(dimension);
@@ -134,120 +118,131 @@ void Fog::sample_candidate(const Ray& ray, std::uint32_t bounce, const Path& pat
     const float within = std::min(left / chosen.table.sum(), 1.0f - 0x1p-24f);
     const ScatterTable::Place at = chosen.table.sample(within);
     if (!is_usable(at.pdf_m) || !std::isfinite(at.distance_m)) return;
-    const MediumInterval& interval = along_.intervals[chosen.interval];
-    set_mix_in(interval, ray);
-    const Vec3f position = ray.origin + at.distance_m * ray.direction;
-    const Rgb worth = path.throughput * transmittance_[chosen.interval] *
-                      transmittance_over(mix_.sigma_t, at.distance_m - interval.near_m) *
+    ray_.set_mix_at(chosen.interval, at.distance_m, mix_);
+    if (!mix_.scatters()) return;
+    const Vec3f position = ray_.position(at.distance_m), direction = ray_.ray().direction;
+    const Rgb worth = path.throughput * ray_.before(chosen.interval) *
+                      ray_.transmittance(chosen.interval, ray_.interval(chosen.interval).near_m, at.distance_m) *
                       (weight * total / (chosen.table.sum() * at.pdf_m));
-    const FogLampSampler lamp(*chosen.lamp, mix_, position, ray.direction, strategy);
+    const FogLampSampler lamp(*chosen.lamp, mix_, position, direction, work_.settings.light_sampling);
     const auto add = [&](const LightPoint& point, float pdf) {
         if (!is_usable(pdf)) return;
-        const Rgb light = worth * mix_.scattered(dot(point.wi, ray.direction)) * point.radiance / pdf;
+        const Rgb light = worth * mix_.scattered(dot(point.wi, direction)) * point.radiance / pdf;
         shadows_.push_back({.ray = {.origin = position,
                                     .direction = point.wi,
                                     .near_m = 0.0f,
                                     .far_m = point.distance_m * shadow_reach},
                             .light = light,
                             .bounce = bounce,
-                            .sample = path.sample});
+                            .sample = path.sample,
+                            .dimension = dimension});
     };
     const bool shares = lamp.shares_with_phase();
-    const auto phase_pdf = [&](const Vec3f& wi) { return mix_.pdf_omega(dot(wi, ray.direction)); };
+    const auto phase_pdf = [&](const Vec3f& wi) { return mix_.pdf_omega(dot(wi, direction)); };
     if (const auto point = lamp.sample(sampler.point(dimension + 1)))
         add(*point, point->pdf_omega + (shares ? phase_pdf(point->wi) : 0.0f));
     if (!shares) return;
     const Vec2f u_phase = sampler.point(dimension + 2);
-    float of_lobe = u.y * mix_.total_weight;
-    std::size_t lobe = 0;
-    while (lobe + 1 < mix_.lobes.size() && of_lobe >= MediumMix::weight(mix_.lobes[lobe]))
-        of_lobe -= MediumMix::weight(mix_.lobes[lobe++]);
-    const Vec3f wi = around(ray.direction, sample_cosine(mix_.lobes[lobe].phase, u_phase.x), u_phase.y);
+    const Vec3f wi = around(direction, sample_cosine(mix_.choose(u.y).phase, u_phase.x), u_phase.y);
     if (const auto point = intersect_light(*chosen.lamp, position, wi))
         add(*point, lamp.pdf_omega(*point) + phase_pdf(wi));
 }
 
-std::optional<std::size_t> Fog::choose_lamp(const Ray& ray, float u, float u_place, float& probability) {
-    // Seen from a place that light is likely to come from: where the ray would be scattered if it were.
-    const float lost = 1.0f - mean_component(transmittance_.back());
-    float wanted = u_place * lost;
-    Vec3f position = ray.origin;
-    for (std::size_t i = 0; i < along_.intervals.size(); ++i) {
-        const float before = mean_component(transmittance_[i]);
-        const float part = before - mean_component(transmittance_[i + 1]);
-        if (wanted >= part && i + 1 < along_.intervals.size()) {
-            wanted -= part;
-            continue;
-        }
-        set_mix_in(along_.intervals[i], ray);
-        const float sigma = std::max(mean_component(mix_.sigma_t), tiny<float>);
-        const float along_m = -std::log1p(-std::min(wanted / std::max(before, tiny<float>), 1.0f - 0x1p-24f)) / sigma;
-        const float most_m = std::min(along_.intervals[i].far_m - along_.intervals[i].near_m, 1e6f);
-        position += (along_.intervals[i].near_m + std::min(along_m, most_m)) * ray.direction;
-        break;
-    }
-    const auto [light, chance] = choose_light(work_.scene.lamp_tree(), position, u);
-    probability = chance;
-    return chance > 0.0f ? std::optional(light) : std::nullopt;
+std::pair<std::size_t, float> Fog::choose_lamp(float u, float u_place) {
+    // Seen from a place that light is likely to come from: where the ray would end if it were stopped.
+    float wanted = u_place * (1.0f - mean_component(ray_.through()));
+    std::size_t i = 0;
+    const auto stopped_in = [&](std::size_t k) { return mean_component(ray_.before(k) - ray_.before(k + 1)); };
+    for (; i + 1 < ray_.size() && wanted >= stopped_in(i); ++i) wanted -= stopped_in(i);
+    ray_.set_typical_mix(i, mix_);
+    const MediumInterval& interval = ray_.interval(i);
+    const float before = std::max(mean_component(ray_.before(i)), tiny<float>);
+    const float depth = -std::log1p(-std::min(wanted / before, 1.0f - 0x1p-24f));
+    const float along_m = depth / std::max(mean_component(mix_.sigma_t), tiny<float>);
+    const float most_m = std::min(interval.far_m - interval.near_m, 1e6f);
+    return choose_light(work_.scene.lamp_tree(), ray_.position(interval.near_m + std::min(along_m, most_m)), u);
 }
 
-void Fog::sample_lamps(const Ray& ray, std::uint32_t bounce, const Path& path) {
+void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
     const std::span<const Light> lamps = work_.scene.lamps();
-    if (lamps.size() <= max_lamp_samples && bounce == 0) {
-        for (std::uint32_t i = 0; i < lamps.size(); ++i) {
-            candidates_.clear();
-            add_candidates(lamps[i], ray, path);
-            sample_candidate(ray, bounce, path, 1.0f, i);
-        }
-        return;
-    }
     candidates_.clear();
     if (lamps.size() <= max_lamp_samples) {
-        for (const Light& lamp : lamps) add_candidates(lamp, ray, path);
-        sample_candidate(ray, bounce, path, 1.0f, 0);
+        // A camera's ray samples each of few lamps, later ones one by what it scatters.
+        for (std::uint32_t i = 0; i < lamps.size(); ++i) {
+            add_candidates(lamps[i], path);
+            if (bounce > 0) continue;
+            sample_candidate(bounce, path, 1.0f, i);
+            candidates_.clear();
+        }
+        if (bounce > 0) sample_candidate(bounce, path, 1.0f, 0);
         return;
     }
     const std::uint32_t count = bounce == 0 ? max_lamp_samples : 1;
     const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce).lamp_choice());
     for (std::uint32_t k = 0; k < count; ++k) {
-        float probability;
-        const auto of_count = [&](float number) {
-            return (static_cast<float>(k) + number) / static_cast<float>(count);
-        };
         const float turned = u.y + 0.618034f * static_cast<float>(k);
-        const auto lamp = choose_lamp(ray, of_count(u.x), turned - std::floor(turned), probability);
-        if (!lamp) continue;
+        const auto [lamp, probability] =
+            choose_lamp((static_cast<float>(k) + u.x) / static_cast<float>(count), turned - std::floor(turned));
+        if (!(probability > 0.0f)) continue;
         candidates_.clear();
-        add_candidates(lamps[*lamp], ray, path);
-        sample_candidate(ray, bounce, path, 1.0f / (probability * static_cast<float>(count)), k);
+        add_candidates(lamps[lamp], path);
+        sample_candidate(bounce, path, 1.0f / (probability * static_cast<float>(count)), k);
     }
 }
 
 // ---- scattering
 
-Rgb Fog::sample_collision(const Ray& ray, std::uint32_t bounce, const Path& path) {
-    constexpr float least_through = 0.05f;
-    const Rgb through = transmittance_.back();
+Rgb Fog::sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream) {
+    std::optional<MediaRay::Collided> collided;
+    Rgb through = ray_.through();
+    if (ray_.is_homogeneous()) {
+        through = sample_collision_evenly(bounce, path, collided);
+    } else {
+        Rgb throughput = path.throughput;
+        collided = ray_.collide(throughput, stream, mix_);
+        if (bounce > 0) through = throughput / max(path.throughput, Rgb(tiny<float>));
+    }
     const Sampler& sampler = work_.samplers[path.sample];
-    const FogDimensions dimensions(bounce);
-    const Vec2f u = sampler.point(dimensions.collision()), u_lobe = sampler.point(dimensions.lobe());
-    const Vec2f u_survival = sampler.point(dimensions.survival());
+    const Vec2f u_survival = sampler.point(FogDimensions(bounce).survival());
+    if (collided) {
+        const ScatterLobe& lobe = mix_.choose(sampler.point(FogDimensions(bounce).lobe()).x);
+        Rgb throughput = collided->throughput * (lobe.sigma_s / max(mix_.sigma_s, Rgb(tiny<float>))) *
+                         (mix_.total_weight / MediumMix::weight(lobe));
+        // Beside the path that goes on, this one goes on as often as it is worth it, or, of later bounces, as others
+        // do.
+        float survival = bounce == 0 ? std::min(max_component(throughput), 1.0f) : 1.0f;
+        if (bounce >= first_roulette_bounce) survival = std::min(max_component(throughput), max_roulette_survival);
+        if (u_survival.x < survival) {
+            throughput /= survival;
+            vertices_.push_back({.position = ray_.position(collided->distance_m),
+                                 .direction = ray_.ray().direction,
+                                 .phase = lobe.phase,
+                                 .throughput = throughput,
+                                 .footprint_m = path.arrival.footprint_m + path.spread * collided->distance_m,
+                                 .spread = path.spread,
+                                 .sample = bounce == 0 ? path.sample + fog_sample_ : path.sample});
+        }
+    }
+    if (bounce > 0) return through;
+    constexpr float least_through = 0.05f;
+    const float survival = std::min(max_component(through) / least_through, 1.0f);
+    return u_survival.y < survival ? through / survival : Rgb(0.0f);
+}
+
+Rgb Fog::sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided) {
+    const Rgb through = ray_.through();
+    const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce).collision());
     const float sum = path.throughput.x + path.throughput.y + path.throughput.z;
     if (!(sum > 0.0f)) return through;
     const Rgb share = path.throughput / sum;  // how often each colour chooses
     const float passes = dot(share, through), stays = 1.0f - passes;
-    const bool goes_both_ways = bounce == 0;
     float left = u.x;
-    if (!goes_both_ways) {
+    if (bounce > 0) {
         if (left >= stays) return through / passes;
         left /= stays;
     }
-    const auto onwards = [&] {
-        if (!goes_both_ways) return Rgb(0.0f);
-        const float survival = std::min(max_component(through) / least_through, 1.0f);
-        return u_survival.y < survival ? through / survival : Rgb(0.0f);
-    };
     if (!(stays > 0.0f)) return through;
+    const Rgb onwards = bounce == 0 ? through : Rgb(0.0f);
     int color = 0;
     float of_colors = left * stays;
     while (color < 2 && of_colors >= share[color] * (1.0f - through[color])) {
@@ -256,39 +251,17 @@ Rgb Fog::sample_collision(const Ray& ray, std::uint32_t bounce, const Path& path
     }
     const float wanted = 1.0f - u.y * (1.0f - through[color]);  // transmittance up to the collision
     std::size_t i = 0;
-    while (i + 1 < along_.intervals.size() && transmittance_[i + 1][color] > wanted) ++i;
-    const MediumInterval& interval = along_.intervals[i];
-    set_mix_in(interval, ray);
-    if (!mix_.scatters() || !(mix_.sigma_t[color] > 0.0f)) return onwards();
-    const float length_m = interval.far_m - interval.near_m;
-    const float along_m = std::clamp(
-        std::log(transmittance_[i][color] / std::max(wanted, tiny<float>)) / mix_.sigma_t[color], 0.0f, length_m);
-    const Rgb before = transmittance_[i] * transmittance_over(mix_.sigma_t, along_m);
-    const float pdf_m = dot(share, before * mix_.sigma_t) / (goes_both_ways ? stays : 1.0f);
-    if (!is_usable(pdf_m) || !std::isfinite(along_m)) return onwards();
-    float of_lobes = u_lobe.x * mix_.total_weight;
-    std::size_t lobe = 0;
-    while (lobe + 1 < mix_.lobes.size() && of_lobes >= MediumMix::weight(mix_.lobes[lobe]))
-        of_lobes -= MediumMix::weight(mix_.lobes[lobe++]);
-    const ScatterLobe& chosen = mix_.lobes[lobe];
-    Rgb throughput =
-        path.throughput * before * chosen.sigma_s * (mix_.total_weight / (MediumMix::weight(chosen) * pdf_m));
-    // Beside the path that goes on, this one goes on as often as it is worth it, or, of later bounces, as others do.
-    float survival = 1.0f;
-    if (goes_both_ways) survival = std::min(max_component(throughput), 1.0f);
-    if (bounce > first_roulette_bounce) survival = std::min(max_component(throughput), max_roulette_survival);
-    if (u_survival.x < survival) {
-        throughput /= survival;
-        const float distance_m = interval.near_m + along_m;
-        vertices_.push_back({.position = ray.origin + distance_m * ray.direction,
-                             .direction = ray.direction,
-                             .phase = chosen.phase,
-                             .throughput = throughput,
-                             .footprint_m = path.arrival.footprint_m + path.spread * distance_m,
-                             .spread = path.spread,
-                             .sample = bounce == 0 ? path.sample + fog_sample_ : path.sample});
-    }
-    return onwards();
+    while (i + 1 < ray_.size() && ray_.before(i + 1)[color] > wanted) ++i;
+    const MediumInterval& interval = ray_.interval(i);
+    ray_.set_mix_at(i, interval.near_m, mix_);
+    if (!mix_.scatters() || !(mix_.sigma_t[color] > 0.0f)) return onwards;
+    const float depth = std::log(ray_.before(i)[color] / std::max(wanted, tiny<float>));
+    const float along_m = std::clamp(depth / mix_.sigma_t[color], 0.0f, interval.far_m - interval.near_m);
+    const Rgb before = ray_.before(i) * transmittance_over(mix_.sigma_t, along_m);
+    const float pdf_m = dot(share, before * mix_.sigma_t) / (bounce == 0 ? stays : 1.0f);
+    if (is_usable(pdf_m) && std::isfinite(along_m))
+        collided = {interval.near_m + along_m, path.throughput * before * mix_.sigma_s / pdf_m};
+    return onwards;
 }
 
 void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
@@ -297,14 +270,15 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     if (strategy == LightSampling::bsdf) return;
     const Sampler& sampler = work_.samplers[vertex.sample];
     const FogDimensions dimensions(bounce);
-    const auto add = [&](const Vec3f& wi, float reach_m, const Rgb& radiance, float pdf) {
+    const auto add = [&](const Vec3f& wi, float reach_m, const Rgb& radiance, float pdf, std::uint32_t dimension) {
         const float phase = eval(vertex.phase, dot(wi, vertex.direction));
         const float weight = strategy == LightSampling::light ? 1.0f : balance(pdf, phase);
         if (!is_usable(pdf)) return;
         shadows_.push_back({.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m},
                             .light = vertex.throughput * radiance * (phase * weight / pdf),
                             .bounce = bounce,
-                            .sample = vertex.sample});
+                            .sample = vertex.sample,
+                            .dimension = dimension});
     };
     if (const Environment& environment = scene.environment(); !environment.is_dark()) {
         const Vec2f u = sampler.point(dimensions.world());
@@ -312,7 +286,7 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
         const Vec3f wi(store(sampled.x)[0], store(sampled.y)[0], store(sampled.z)[0]);
         add(wi, std::numeric_limits<float>::infinity(),
             world_radiance(scene.world_view(), wi, diffuse_ray, bounce + 1, work_.memory.registers),
-            store(environment.pdf_omega(sampled))[0]);
+            store(environment.pdf_omega(sampled))[0], dimensions.world());
     }
     if (scene.triangle_lights().empty()) return;
     const auto [index, probability] =
@@ -324,7 +298,7 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     if (const auto point = sample_light(light, vertex.position, sampler.point(dimensions.triangle_place())))
         add(point->wi,
             point->distance_m * shadow_reach - surface_error_m(light) / std::abs(dot(point->wi, light.normal)),
-            point->radiance, probability * point->pdf_omega);
+            point->radiance, probability * point->pdf_omega, dimensions.triangle_place());
 }
 
 Rgb Fog::shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& ray, const std::optional<RayHit>& hit,
@@ -407,7 +381,9 @@ void Fog::finish() {
     work_.scene.occluded(rays, hidden);
     for (std::size_t i = 0; i < shadows_.size(); ++i) {
         const Shadow& shadow = shadows_[i];
-        if (!hidden[i]) add_light(shadow.bounce, shadow.sample, shadow.light * transmittance(shadow.ray));
+        if (!hidden[i])
+            add_light(shadow.bounce, shadow.sample,
+                      shadow.light * transmittance(shadow.ray, shadow.sample, shadow.dimension));
     }
     shadows_.clear();
 }

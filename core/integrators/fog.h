@@ -21,15 +21,16 @@ struct FogVertex {
 class Fog {
    public:
     /// fog_sample: added to a path's sample where it first scatters in fog, so that its light is counted apart.
-    Fog(const Work& work, std::uint32_t fog_sample) : work_(work), fog_sample_(fog_sample) {}
+    Fog(const Work& work, std::uint32_t fog_sample)
+        : work_(work), fog_sample_(fog_sample), ray_(work.scene.media()), shadow_ray_(work.scene.media()) {}
 
     /// Adds what a path brings of the media along a ray, up to a surface or to no end, and returns what it is worth
     /// there: 0 where it goes on within the media alone. bounce: of what comes next. path: its throughput, sample and
     /// footprint at the ray's origin.
     Rgb cross(const Ray& ray, std::uint32_t bounce, const Path& path);
 
-    /// What the media leave of light along a ray.
-    Rgb transmittance(const Ray& ray);
+    /// What the media leave of light along a ray of a sample's. dimension: apart for each ray.
+    Rgb transmittance(const Ray& ray, std::uint32_t sample, std::uint32_t dimension);
 
     /// Whether there are paths that scatter() would send on.
     bool has_paths() const { return !vertices_.empty(); }
@@ -51,15 +52,15 @@ class Fog {
     struct Shadow {
         Ray ray;
         Rgb light;
-        std::uint32_t bounce, sample;
+        std::uint32_t bounce, sample, dimension;
     };
 
-    void set_mix_in(const MediumInterval& interval, const Ray& ray);
-    void sample_lamps(const Ray& ray, std::uint32_t bounce, const Path& path);
-    void add_candidates(const Light& lamp, const Ray& ray, const Path& path);
-    void sample_candidate(const Ray& ray, std::uint32_t bounce, const Path& path, float weight, std::uint32_t place);
-    std::optional<std::size_t> choose_lamp(const Ray& ray, float u, float u_place, float& probability);
-    Rgb sample_collision(const Ray& ray, std::uint32_t bounce, const Path& path);
+    void sample_lamps(std::uint32_t bounce, const Path& path);
+    void add_candidates(const Light& lamp, const Path& path);
+    void sample_candidate(std::uint32_t bounce, const Path& path, float weight, std::uint32_t place);
+    std::pair<std::size_t, float> choose_lamp(float u, float u_place);
+    Rgb sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream);
+    Rgb sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided);
     void sample_shining(const FogVertex& vertex, std::uint32_t bounce);
     Rgb shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& ray, const std::optional<RayHit>& hit,
                     float pdf_omega);
@@ -67,9 +68,8 @@ class Fog {
 
     const Work& work_;
     std::uint32_t fog_sample_;
-    MediaAlong along_;
+    MediaRay ray_, shadow_ray_;
     MediumMix mix_;
-    std::vector<Rgb> transmittance_;  ///< up to each interval, then beyond the last
     std::vector<Candidate> candidates_;
     std::vector<Shadow> shadows_;
     std::vector<FogVertex> vertices_;

@@ -52,25 +52,21 @@ Batch length_within(const PlacedMedium& placed, const Vec3b& position, const Vec
     return max(min(leaves, distance_m), Batch(0.0f));
 }
 
-/// What the part's media leave of light on its way to a place.
+/// What the interval's media leave of light on its way to a place.
 Vec3b transmittance_to(const FogPart& part, const Vec3b& position, const Vec3b& wi, const Batch& distance_m) {
     const auto inverse_of = [](const Batch& x) {
         return Batch(1.0f) / select(abs(x) < Batch(1e-12f), Batch(1e-12f), x);
     };
     const Vec3b inverse_wi(inverse_of(wi.x), inverse_of(wi.y), inverse_of(wi.z));
     Batch length_m(0.0f);
-    for (const std::uint32_t id : part.ids)
-        length_m = max(length_m, length_within(part.media.at(id), position, inverse_wi, distance_m));
-    const Rgb& sigma_t = part.mix.sigma_t;
-    const auto left = [&](float sigma) { return sigma > 0.0f ? exp(Batch(-sigma) * length_m) : Batch(1.0f); };
-    const Batch red = left(sigma_t.x);
-    if (sigma_t.x == sigma_t.y && sigma_t.x == sigma_t.z) return Vec3b(red);
-    return {red, left(sigma_t.y), left(sigma_t.z)};
+    for (const std::uint32_t id : part.ray.ids(part.interval))
+        length_m = max(length_m, length_within(part.ray.media().at(id), position, inverse_wi, distance_m));
+    return transmittance_over(part.mix.sigma_t, length_m);
 }
 
 /// sigma_s times each lobe's share of its light that comes from a cap.
 Vec3b scattered_of_cap(const FogPart& part, const Cap<Batch>& cap) {
-    const Vec3b direction = broadcast(part.ray.direction);
+    const Vec3b direction = broadcast(part.ray.ray().direction);
     Vec3b sum(Batch(0.0f));
     for (const ScatterLobe& lobe : part.mix.lobes)
         sum += broadcast(lobe.sigma_s) * integrate(lobe.phase, proxy_of(lobe.phase), direction, cap);
@@ -79,10 +75,7 @@ Vec3b scattered_of_cap(const FogPart& part, const Cap<Batch>& cap) {
 
 Vec3b scattered_of(const SphereLight& light, const SpotLight* spot, const FogPart& part, const Vec3b& position) {
     const Cap<Batch> cap = cap_from(light, position);
-    const Vec3b to_center = broadcast(light.center) - position;
-    const Batch distance_m = sqrt(max(length_squared(to_center), tiny<Batch>));
-    Vec3b scattered = scattered_of_cap(part, cap) * broadcast(light.radiance) *
-                      transmittance_to(part, position, to_center / distance_m, distance_m);
+    Vec3b scattered = scattered_of_cap(part, cap) * broadcast(light.radiance);
     if (spot) {
         // Over the sphere's width the falloff is a mean of three places.
         const Batch cosine = -dot(cap.axis, broadcast(spot->direction));
@@ -94,10 +87,9 @@ Vec3b scattered_of(const SphereLight& light, const SpotLight* spot, const FogPar
     return scattered;
 }
 
-Vec3b scattered_of(const SunLight& sun, const FogPart& part, const Vec3b& position) {
+Vec3b scattered_of(const SunLight& sun, const FogPart& part) {
     const Cap<Batch> cap{broadcast(sun.cap.axis), Batch(sun.cap.versine)};
-    return scattered_of_cap(part, cap) * broadcast(sun.radiance) *
-           transmittance_to(part, position, cap.axis, std::numeric_limits<Batch>::infinity());
+    return scattered_of_cap(part, cap) * broadcast(sun.radiance);
 }
 
 /// By four places on the light.
@@ -108,14 +100,13 @@ Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& pos
     for (const float x : {-offset, offset}) {
         for (const float y : {-offset, offset}) {
             const Vec3b d = broadcast(light.center + x * light.half_u + y * light.half_v) - position;
-            const Batch r2 = max(length_squared(d), tiny<Batch>), distance_m = sqrt(r2);
-            const Vec3b wi = d / distance_m;
+            const Batch r2 = max(length_squared(d), tiny<Batch>);
+            const Vec3b wi = d * inverse_sqrt(r2);
             const Batch facing = max(-dot(wi, broadcast(light.normal)), Batch(0.0f));
-            const Batch mu = dot(wi, broadcast(part.ray.direction));
+            const Batch mu = dot(wi, broadcast(part.ray.ray().direction));
             Vec3b scattered(Batch(0.0f));
             for (const ScatterLobe& lobe : part.mix.lobes) scattered += broadcast(lobe.sigma_s) * eval(lobe.phase, mu);
-            sum += scattered * transmittance_to(part, position, wi, distance_m) *
-                   (facing * Batch(0.25f * light.area_m2) / max(r2, least2));
+            sum += scattered * (facing * Batch(0.25f * light.area_m2) / max(r2, least2));
         }
     }
     return sum * broadcast(light.radiance);
@@ -131,13 +122,14 @@ float typical_g(const MediumMix& mix) {
 }  // namespace
 
 std::optional<Range> lit_part(const Light& lamp, const FogPart& part) {
-    const Range whole{part.near_m, part.far_m};
+    const MediumInterval& interval = part.ray.interval(part.interval);
+    const Range whole{interval.near_m, interval.far_m};
     if (const auto* spot = std::get_if<SpotLight>(&lamp)) {
-        const auto lit = within_cone(*spot, part.ray);
+        const auto lit = within_cone(*spot, part.ray.ray());
         return lit ? within(whole, *lit) : std::nullopt;
     }
     if (const auto* area = std::get_if<AreaLight>(&lamp)) {
-        const auto lit = before_plane(*area, part.ray);
+        const auto lit = before_plane(*area, part.ray.ray());
         return lit ? within(whole, *lit) : std::nullopt;
     }
     return whole;
@@ -147,26 +139,31 @@ DistanceMap distance_map(const Light& lamp, const FogPart& part, float near_m, f
     const float sigma_t = mean_component(part.mix.sigma_t);
     if (std::holds_alternative<SunLight>(lamp)) return {near_m, far_m, sigma_t};
     const auto* area = std::get_if<AreaLight>(&lamp);
-    const Vec3f center = area ? area->center : sphere_of(lamp)->center;
     const float size_m = area ? 0.5f * std::sqrt(area->area_m2) : sphere_of(lamp)->radius_m;
-    const float along_m = dot(center - part.ray.origin, part.ray.direction);
-    const float off_m = length(part.ray.origin + along_m * part.ray.direction - center);
+    const Vec3f center = area ? area->center : sphere_of(lamp)->center;
+    const Ray& ray = part.ray.ray();
+    const float along_m = dot(center - ray.origin, ray.direction);
+    const float off_m = length(ray.origin + along_m * ray.direction - center);
     return {near_m, far_m, sigma_t, along_m, std::max(off_m, size_m), typical_g(part.mix)};
 }
 
 Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m) {
-    const Vec3b position = broadcast(part.ray.origin) + distance_m * broadcast(part.ray.direction);
-    return std::visit(
-        [&](const auto& light) {
-            using L = std::decay_t<decltype(light)>;
-            if constexpr (std::is_same_v<L, SpotLight>)
-                return scattered_of(light.sphere, &light, part, position);
-            else if constexpr (std::is_same_v<L, SphereLight>)
-                return scattered_of(light, nullptr, part, position);
-            else
-                return scattered_of(light, part, position);
-        },
-        lamp);
+    const Ray& ray = part.ray.ray();
+    const Vec3b position = broadcast(ray.origin) + distance_m * broadcast(ray.direction);
+    if (const auto* sun = std::get_if<SunLight>(&lamp)) return scattered_of(*sun, part);
+    if (const auto* area = std::get_if<AreaLight>(&lamp)) return scattered_of(*area, part, position);
+    return scattered_of(*sphere_of(lamp), std::get_if<SpotLight>(&lamp), part, position);
+}
+
+Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m) {
+    const Ray& ray = part.ray.ray();
+    const Vec3b position = broadcast(ray.origin) + distance_m * broadcast(ray.direction);
+    if (const auto* sun = std::get_if<SunLight>(&lamp))
+        return transmittance_to(part, position, broadcast(sun->cap.axis), std::numeric_limits<Batch>::infinity());
+    const auto* area = std::get_if<AreaLight>(&lamp);
+    const Vec3b d = broadcast(area ? area->center : sphere_of(lamp)->center) - position;
+    const Batch reach_m = sqrt(max(length_squared(d), tiny<Batch>));
+    return transmittance_to(part, position, d / reach_m, reach_m);
 }
 
 FogLampSampler::FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,

@@ -4,31 +4,32 @@
 #include <optional>
 
 #include "core/integrators/distance_map.h"
+#include "core/integrators/media_ray.h"
 #include "core/integrators/settings.h"
 #include "core/lights/light.h"
-#include "core/scene/medium_mix.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
 
-/// A part of a ray where media and lamp are the same.
+/// An interval of a ray, and what it is typically made of.
 struct FogPart {
-    const Media& media;
-    std::span<const std::uint32_t> ids;
-    const MediumMix& mix;  ///< there, or typical of it
-    const Ray& ray;
-    float near_m, far_m;
+    const MediaRay& ray;
+    std::size_t interval;
+    const MediumMix& mix;
 };
 
-/// What of the part the lamp may light; nothing where it lights none.
+/// From where to where a lamp may light the interval; nothing where it lights none of it.
 std::optional<std::pair<float, float>> lit_part(const Light& lamp, const FogPart& part);
 
 /// Under which what the lamp scatters from near_m to far_m is smooth.
 DistanceMap distance_map(const Light& lamp, const FogPart& part, float near_m, float far_m);
 
-/// About the radiance that each m of the ray scatters towards its origin, if nothing is in the lamp's way but the
-/// media of the part: without what they take along the ray.
+/// About the radiance that each m of the ray scatters towards its origin where the interval is as is typical, if
+/// nothing is in the lamp's way: without what the media take along the ray.
 Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m);
+
+/// About what the media leave of the lamp's light up to places of the ray, as if they filled the boxes around them.
+Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m);
 
 /// Samples of a lamp from a place in fog. By strategies joint and sptd a cap-shaped lamp is drawn jointly with the
 /// pivot phase functions that stand for the lobes, so that BSDF samples need not share; else evenly.

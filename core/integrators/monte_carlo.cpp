@@ -32,7 +32,7 @@ float bsdf_weight(const Light& light, LightSampling strategy, const Vertex& vert
 
 /// What a BSDF sample that reaches distance_m meets of the lamps that its vertex sampled.
 Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, const Vertex& vertex, const Vec3f& wi,
-              float bsdf_pdf_omega, float distance_m) {
+              float bsdf_pdf_omega, float distance_m, std::uint32_t sample) {
     Rgb radiance(0.0f);
     for (const auto& [index, expected] : lamps) {
         const Light& lamp = work.scene.light(index);
@@ -43,8 +43,9 @@ Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, con
             place->radiance *
             (bsdf_weight(lamp, work.settings.light_sampling, vertex, *place, expected, bsdf_pdf_omega) / expected);
         if (fog)
-            light *= fog->transmittance(
-                {.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m});
+            light *=
+                fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
+                                   sample, static_cast<std::uint32_t>(index));
         radiance += light;
     }
     return radiance;
@@ -214,7 +215,7 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
         Rgb light(0.0f);
         if (!shared.at(i).empty())
             lamps[i] = lamps_met(work, fog, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
-                                 is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity());
+                                 is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity(), path.sample);
         bool shines_by_program = false;
         if (is_met) {
             arrival.material = scene.material_of(arrival.hit);

@@ -15,6 +15,13 @@ struct MediumMix {
     /// How often a lobe is chosen, relative to each other.
     static float weight(const ScatterLobe& lobe) { return mean_component(lobe.sigma_s); }
     bool scatters() const { return total_weight > 0.0f; }
+    /// The lobe that a number in [0, 1) chooses.
+    const ScatterLobe& choose(float u) const {
+        std::size_t i = 0;
+        for (float left = u * total_weight; i + 1 < lobes.size() && left >= weight(lobes[i]);)
+            left -= weight(lobes[i++]);
+        return lobes[i];
+    }
     /// Of all lobes, at mu = cos to the direction of travel: sigma_s times phase function, 1/(m sr).
     Rgb scattered(float mu) const {
         Rgb sum(0.0f);
@@ -29,10 +36,15 @@ struct MediumMix {
     }
 };
 
+/// A grid's value at a place of world space, or 1 without a grid.
+Rgb value_at(const VoxelGrid* grid, const PlacedMedium& placed, const Vec3f& position);
+
+/// Starts a mix with nothing.
+void clear(MediumMix& mix);
+/// Adds a medium where its density and its emission's grid have these values.
+void add(MediumMix& mix, const Medium& medium, float density, const Rgb& emission_factor);
+
 /// Sets a mix to what the media are at a place.
 void set_mix(MediumMix& mix, const Media& media, std::span<const std::uint32_t> ids, const Vec3f& position);
-
-/// Whether the media are the same everywhere.
-bool are_homogeneous(const Media& media, std::span<const std::uint32_t> ids);
 
 }  // namespace pivot

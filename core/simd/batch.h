@@ -76,6 +76,28 @@ inline IndexBatch to_index(const Batch& x) { return xsimd::to_int(x); }
 
 inline float fetch(const float* table, std::int32_t index) { return table[index]; }
 inline Batch fetch(const float* table, const IndexBatch& index) { return Batch::gather(table, index); }
+inline std::int32_t fetch(const std::int32_t* table, std::int32_t index) { return table[index]; }
+inline IndexBatch fetch(const std::int32_t* table, const IndexBatch& index) { return IndexBatch::gather(table, index); }
+
+/// Two neighbours of 16 bits, read at once.
+template <class T>
+Vec2<T> fetch_pair(const std::uint16_t* table, const Index<T>& index) {
+    if constexpr (std::is_same_v<T, float>) {
+        return {static_cast<float>(table[index]), static_cast<float>(table[index + 1])};
+    } else {
+#ifdef __AVX2__
+        const WordBatch words(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index, sizeof(*table)));
+#else
+        std::array<std::int32_t, batch_size> at;
+        std::array<std::uint32_t, batch_size> pairs;
+        index.store_unaligned(at.data());
+        for (std::size_t i = 0; i < batch_size; ++i) std::memcpy(&pairs[i], table + at[i], sizeof(pairs[i]));
+        const WordBatch words = WordBatch::load_unaligned(pairs.data());
+#endif
+        return {xsimd::to_float(std::bit_cast<IndexBatch>(words & WordBatch(0xffffu))),
+                xsimd::to_float(std::bit_cast<IndexBatch>(words >> 16))};
+    }
+}
 
 /// [0, 1) with 24 bits.
 inline Batch to_unit(const WordBatch& x) {
