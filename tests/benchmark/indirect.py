@@ -20,6 +20,7 @@ import functools
 import hashlib
 import math
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import indirect_plain as plain
@@ -95,8 +96,13 @@ def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: 
     return [row for _, row in others + best]
 
 
-def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row], peer: str) -> None:
-    """Each scene's line, then the geometric mean and the least of the efficiency's ratio over the best of a peer."""
+def print_ratios(
+    gallery: Gallery, renderers_of: Mapping[str, list[Renderer]], rows: list[table.Row], peer: str
+) -> None:
+    """Each scene's line, then the geometric mean and the least of the efficiency's ratio over the best of a peer.
+
+    renderers_of: by scene.
+    """
     compared = {}
     for scene, found in table.by_scene(rows).items():
         best = table.best(found, peer)
@@ -105,11 +111,15 @@ def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.R
     if not compared:
         return
     name = peer.capitalize()
-    print(
-        f"\n{'':20}{'times':>7} {'without':>8}  {'':24}{'CPU s a sample':>15} {'relMSE':>17} {'of references':>17}"
-        f" {'means':>7}\n{'scene':20}{name:>7} {'worst 1%':>8}  {f'best {name}':24}{f'Pivot {name:>7}':>15}"
-        f" {f'Pivot  {name:>7}':>17} {f'Pivot  {name:>7}':>17} {f'P / {name[0]}':>7}"
-    )
+    wide = 1 + max(map(len, ("geometric mean", *compared)))
+    label = 1 + max(len(theirs["renderer"]) for _, theirs in compared.values())
+    for line in (
+        f"\n{'':{wide}}{'times':>7} {'without':>8}  {'':{label}}{'CPU s a sample':>15} {'relMSE':>17}"
+        f" {'of references':>17} {'means':>7}",
+        f"{'scene':{wide}}{name:>7} {'worst 1%':>8}  {f'best {name}':{label}}{f'Pivot {name:>7}':>15}"
+        f" {f'Pivot  {name:>7}':>17} {f'Pivot  {name:>7}':>17} {f'P / {name[0]}':>7}",
+    ):
+        print(line)
     ratios = []
     for scene, (ours, theirs) in compared.items():
         ratios.append(ours["efficiency"] / theirs["efficiency"])
@@ -118,10 +128,10 @@ def print_ratios(gallery: Gallery, renderers: list[Renderer], rows: list[table.R
         each = [f"{ours[name]:8.2e} {theirs[name]:8.2e}" for name in ("relMSE", "relMSE of the reference")]
         per_sample = f"{ours['CPU s'] / ours['samples']:7.3f} {theirs['CPU s'] / theirs['samples']:7.3f}"
         print(
-            f"{scene:20}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:24}{per_sample} {each[0]} {each[1]} "
-            f"{means(gallery, renderers, scene, peer)}"
+            f"{scene:{wide}}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:{label}}{per_sample} {each[0]}"
+            f" {each[1]} {means(gallery, renderers_of[scene], scene, peer)}"
         )
-    print(f"{'geometric mean':20}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':20}{min(ratios):7.2f}")
+    print(f"{'geometric mean':{wide}}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':{wide}}{min(ratios):7.2f}")
 
 
 def means(gallery: Gallery, renderers: list[Renderer], scene: str, peer: str) -> str:
@@ -134,8 +144,15 @@ def means(gallery: Gallery, renderers: list[Renderer], scene: str, peer: str) ->
     return f"{ratio:7.4f} +- {math.sqrt(sum(relative)):.4f}{flag}"
 
 
-def write_sheet(gallery: Gallery, renderers: list[Renderer], rows: list[table.Row], peer: str) -> None:
-    """What both made of one scene with the samples measured, and their references."""
+def write_sheet(
+    gallery: Gallery,
+    renderers: list[Renderer],
+    rows: list[table.Row],
+    peer: str,
+    folder: Path,
+    size_px: tuple[int, int],
+) -> None:
+    """What both made of one scene with the samples measured, and their references: a PNG in the folder."""
     ((scene, found),) = table.by_scene(rows).items()
     shown = [found[name] for name in ("pivot",) if name in found] + list(table.best(found, peer).values())
     images = {}
@@ -147,7 +164,7 @@ def write_sheet(gallery: Gallery, renderers: list[Renderer], rows: list[table.Ro
             "reference": gallery.reference(renderer, scene)[0],
         }
     lines = list(dict.fromkeys(line for column in images.values() for line in column))
-    table.write_picture(OUTPUT / f"{scene}.png", lines, images, (scenes.WIDTH, scenes.HEIGHT))
+    table.write_picture(folder / f"{scene}.png", lines, images, size_px)
 
 
 def main() -> None:
@@ -175,14 +192,14 @@ def main() -> None:
             found = measure(gallery, renderers, name + suffix, arguments)
             if found:
                 rows += found
-                write_sheet(gallery, renderers, found, peer)
+                write_sheet(gallery, renderers, found, peer, OUTPUT, (scenes.WIDTH, scenes.HEIGHT))
         rows_of[peer] = renderers, rows
     all_rows = [row for _, rows in rows_of.values() for row in rows]
     if not all_rows:
         return
     table.write_csv(OUTPUT / "indirect.csv", all_rows)
     for peer, (renderers, rows) in rows_of.items():
-        print_ratios(gallery, renderers, rows, peer)
+        print_ratios(gallery, dict.fromkeys((row["scene"] for row in rows), renderers), rows, peer)
 
 
 if __name__ == "__main__":

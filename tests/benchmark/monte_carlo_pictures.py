@@ -94,6 +94,21 @@ class Gallery:
         with np.load(self.file(picture)) as data:
             return data["image"].astype(np.float64), float(data["cpu_s"])
 
+    def render(self, renderer: Renderer, pictures: list[Picture]) -> None:
+        """In one process, also those that are there."""
+        jobs = []
+        for picture in pictures:
+            file = self.file(picture)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            scene, _, samples, seed = picture
+            common = {"scene": scene, "renderer": renderer.name, "settings": renderer.settings}
+            jobs.append(common | {"samples": samples, "seed": seed, "file": str(file)})
+        worker = [renderer.python, str(FOLDER / renderer.worker)]
+        environment = os.environ | {"PYTHONPATH": str(FOLDER)}
+        subprocess.run(
+            worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment
+        )
+
     def make(self, renderer: Renderer, scene: str, samples: int, seeds: Iterable[int], again: bool) -> bool:
         """Render the pictures and what is missing of the reference, or, unless again, find the last ones: whether
         they are all there."""
@@ -102,7 +117,7 @@ class Gallery:
         if not again:
             return not missing and all(self.file(picture).exists() for picture in pictures)
         if missing or pictures:
-            self._render(renderer, missing + pictures)
+            self.render(renderer, missing + pictures)
         return True
 
     def reference(self, renderer: Renderer, scene: str) -> tuple[Floats, Floats]:
@@ -143,21 +158,6 @@ class Gallery:
     def _reference_parts(self, renderer: Renderer, scene: str) -> list[Picture]:
         samples = self.reference_samples[renderer.name] // REFERENCE_PARTS
         return [(scene, f"{renderer.name} reference", samples, 1000 + part) for part in range(REFERENCE_PARTS)]
-
-    def _render(self, renderer: Renderer, pictures: list[Picture]) -> None:
-        """In one process."""
-        jobs = []
-        for picture in pictures:
-            file = self.file(picture)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            scene, _, samples, seed = picture
-            common = {"scene": scene, "renderer": renderer.name, "settings": renderer.settings}
-            jobs.append(common | {"samples": samples, "seed": seed, "file": str(file)})
-        worker = [renderer.python, str(FOLDER / renderer.worker)]
-        environment = os.environ | {"PYTHONPATH": str(FOLDER)}
-        subprocess.run(
-            worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment
-        )
 
 
 def without_worst(errors: Floats) -> float:

@@ -30,6 +30,14 @@ def add_plane(scene: pivot_core.Scene, half_extent_m: float = 100.0) -> int:
     return scene.add_mesh("plane", vertices, np.arange(4), np.array([[0, 1, 2], [0, 2, 3]]))
 
 
+def add_box(scene: pivot_core.Scene, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
+    """From corner to corner, flat, facing outwards; returns the mesh id."""
+    vertices = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)], np.float32)
+    faces = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    triangles = np.arange(24).reshape(6, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return scene.add_mesh("box", vertices, faces.ravel(), triangles)
+
+
 def place(x: float = 0.0, y: float = 0.0, z: float = 0.0, scale: float = 1.0) -> Floats:
     """One instance's object_to_world, (1, 4, 4)."""
     matrix = np.diag([scale, scale, scale, 1.0]).astype(np.float32)
