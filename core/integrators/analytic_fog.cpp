@@ -95,23 +95,33 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
 }  // namespace
 
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray) {
-    Ray to_lamp{.origin = position, .direction = Vec3f(0.0f)};
-    if (const auto* sun = std::get_if<SunLight>(&lamp)) {
-        to_lamp.direction = sun->cap.axis;
-    } else {
-        const auto* area = std::get_if<AreaLight>(&lamp);
-        const Vec3f d = (area ? area->center : sphere_of(lamp)->center) - position;
-        const float distance_m = length(d);
-        if (!(distance_m > 0.0f)) return Rgb(1.0f);
-        to_lamp.direction = d / distance_m;
-        // A sphere's face is so much nearer in the mean.
-        constexpr float mean_face = 2.0f / 3.0f;
-        const SphereLight* sphere = sphere_of(lamp);
-        const bool has_face = sphere && !sphere->is_facing_disk;
-        to_lamp.far_m = std::max(distance_m - (has_face ? mean_face * sphere->radius_m : 0.0f), 0.0f);
+    const auto from = [&](const Vec3f& direction, float distance_m) {
+        ray.follow({.origin = position, .direction = direction, .near_m = 0.0f, .far_m = distance_m}, nullptr);
+        return ray.through();
+    };
+    if (const auto* sun = std::get_if<SunLight>(&lamp))
+        return from(sun->cap.axis, std::numeric_limits<float>::infinity());
+    if (const auto* area = std::get_if<AreaLight>(&lamp)) {
+        // By four places on it, each as much as it lights.
+        Rgb sum(0.0f);
+        float weights = 0.0f;
+        for (const Vec2f& place : {Vec2f(-0.5f, -0.5f), Vec2f(0.5f, -0.5f), Vec2f(-0.5f, 0.5f), Vec2f(0.5f, 0.5f)}) {
+            const Vec3f d = area->center + place.x * area->half_u + place.y * area->half_v - position;
+            const float distance_m = length(d),
+                        weight = -dot(d, area->normal) / std::max(distance_m * sqr(distance_m), tiny<float>);
+            if (!(weight > 0.0f)) continue;
+            sum += weight * from(d / distance_m, distance_m);
+            weights += weight;
+        }
+        return weights > 0.0f ? sum / weights : Rgb(1.0f);
     }
-    ray.follow(to_lamp, nullptr);
-    return ray.through();
+    const SphereLight& sphere = *sphere_of(lamp);
+    const Vec3f d = sphere.center - position;
+    const float distance_m = length(d);
+    if (!(distance_m > 0.0f)) return Rgb(1.0f);
+    // A sphere's face is so much nearer in the mean.
+    const float face_m = sphere.is_facing_disk ? 0.0f : sphere.radius_m * (2.0f / 3.0f);
+    return from(d / distance_m, std::max(distance_m - face_m, 0.0f));
 }
 
 FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,

@@ -18,7 +18,7 @@ struct FogLight {
 FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                           const MediaRay& ray);
 
-/// What media leave of a lamp's light to a place, by its centre.
+/// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray);
 
 }  // namespace pivot

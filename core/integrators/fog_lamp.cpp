@@ -126,8 +126,12 @@ Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& pos
         const SeenCell<Batch> seen =
             see_cell<Batch>(light, position, {Batch(u), Batch(v)}, {Batch(u + width), Batch(v + height)});
         const Batch mu = dot(seen.wi, broadcast(part.ray.ray().direction));
-        for (const ScatterLobe& lobe : part.mix.lobes)
-            sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, mu) * seen.solid_angle);
+        // As a cap of that solid angle a cell is as wide as it is, which matters to a sharp phase function.
+        if (precisely)
+            sum += scattered_of_cap(part, {seen.wi, seen.solid_angle * Batch(0.5f / pi<float>)}, true);
+        else
+            for (const ScatterLobe& lobe : part.mix.lobes)
+                sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, mu) * seen.solid_angle);
     }
     return sum * broadcast(light.radiance);
 }

@@ -1,6 +1,7 @@
 #include "core/scene/media.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace pivot {
 namespace {
@@ -57,7 +58,7 @@ MediaAlong::Passage Media::passage(const Ray& ray, const Crossing& crossing) con
     const Triangle& t = mesh.triangles[crossing.triangle];
     const Vec3f a = mesh.positions[t.x];
     const Vec3f normal = boundary.instance->normal_matrix * cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-    return {crossing.distance_m, medium, dot(normal, ray.direction) < 0.0f ? 1 : -1};
+    return {crossing.distance_m, medium, dot(normal, ray.direction) < 0.0f};
 }
 
 void Media::find_along(const Ray& ray, MediaAlong& along) const {
@@ -72,23 +73,22 @@ void Media::find_along(const Ray& ray, MediaAlong& along) const {
     along.crossings.clear();
     tracer_->crossings({.origin = ray.origin, .direction = ray.direction}, along.crossings);
     along.passages.clear();
-    along.depth.resize(placed_.size());
-    for (const Crossing& crossing : along.crossings) {
-        const MediaAlong::Passage found = passage(ray, crossing);
-        if (found.medium == no_medium) continue;
-        along.passages.push_back(found);
-        along.depth[found.medium] -= found.step;
-    }
+    for (const Crossing& crossing : along.crossings)
+        if (const MediaAlong::Passage found = passage(ray, crossing); found.medium != no_medium)
+            along.passages.push_back(found);
     std::ranges::sort(along.passages, {}, &MediaAlong::Passage::distance_m);
-    for (const MediaAlong::Passage& passage : along.passages)
-        along.depth[passage.medium] = std::max(along.depth[passage.medium], 0);
+    // In reverse, so that the first passage decides. An edge is crossed once or twice: passages set what is, and do not
+    // count.
+    along.is_inside.resize(placed_.size());
+    for (const MediaAlong::Passage& passage : std::views::reverse(along.passages))
+        along.is_inside[passage.medium] = !passage.enters;
 
     const auto add_interval = [&](float near_m, float far_m) {
         const auto first = static_cast<std::uint32_t>(along.active.size());
         if (has_world_) along.active.push_back(0);
         for (const MediaAlong::Passage& passage : along.passages) {
             const auto added = std::span(along.active).subspan(first);
-            if (along.depth[passage.medium] > 0 && std::ranges::find(added, passage.medium) == added.end())
+            if (along.is_inside[passage.medium] && std::ranges::find(added, passage.medium) == added.end())
                 along.active.push_back(passage.medium);
         }
         const auto count = static_cast<std::uint32_t>(along.active.size()) - first;
@@ -101,10 +101,9 @@ void Media::find_along(const Ray& ray, MediaAlong& along) const {
             add_interval(start_m, end_m);
             start_m = end_m;
         }
-        along.depth[passage.medium] += passage.step;
+        along.is_inside[passage.medium] = passage.enters;
     }
     if (ray.far_m > start_m) add_interval(start_m, ray.far_m);
-    for (const MediaAlong::Passage& passage : along.passages) along.depth[passage.medium] = 0;
 }
 
 }  // namespace pivot

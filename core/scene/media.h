@@ -34,10 +34,10 @@ struct MediaAlong {
     struct Passage {
         float distance_m;
         std::uint32_t medium;
-        int step;  ///< 1 where the ray enters, -1 where it leaves
+        bool enters;  ///< or leaves
     };
     std::vector<Passage> passages;
-    std::vector<int> depth;  ///< of each medium; 0 between rays
+    std::vector<std::uint8_t> is_inside;  ///< of each medium that is passed
 
     std::span<const std::uint32_t> active_in(const MediumInterval& interval) const {
         return std::span(active).subspan(interval.first, interval.count);
@@ -53,8 +53,8 @@ class Media {
     bool is_empty() const { return placed_.empty(); }
     const PlacedMedium& at(std::uint32_t id) const { return placed_[id]; }
 
-    /// The media between a ray's origin and its far_m. A ray starts within what it leaves more often than
-    /// it enters, and stays within what it enters and does not leave.
+    /// The media between a ray's origin and its far_m. A ray starts within what it leaves first, and stays
+    /// within what it enters and does not leave.
     void find_along(const Ray& ray, MediaAlong& along) const;
 
    private:
