@@ -30,7 +30,7 @@ def openvdb_module() -> ModuleType | None:
 def read_grid(openvdb: Any, path: Path, name: str) -> Grid | None:
     """A grid of a file over the box that its active voxels fill; None where there is none of the name.
 
-    Raises ValueError for one that is too large.
+    Raises ValueError for one that is too large, or not of finite numbers.
     """
     if name not in {metadata.name for metadata in openvdb.readAllGridMetadata(str(path))}:
         return None
@@ -44,6 +44,8 @@ def read_grid(openvdb: Any, path: Path, name: str) -> Grid | None:
     channels = () if isinstance(grid.zeroValue, int | float) else (3,)
     values = np.zeros((*size, *channels), np.float32)
     grid.copyToArray(values, ijk=low)
+    if not np.isfinite(values).all():
+        raise ValueError(f"its grid '{name}' has numbers that are not finite")
     object_from_index = _object_from_index(grid.transform)
     shift = np.eye(4)
     shift[:3, 3] = -np.array(low) - _CENTRE
