@@ -15,7 +15,7 @@ import parts
 import smoke_cases
 
 SIZE = 24
-SAMPLES = {"CYCLES": 512, "PIVOT": 256}
+SAMPLES = {"CYCLES": 256, "PIVOT": 128}
 COLOR = (0.8, 0.5, 0.3, 1)
 SPHERE: dict[str, Any] = {"shadow_soft_size": 0.4}
 if bpy.app.version >= (4, 0):
