@@ -119,7 +119,7 @@ def _cloud(scratch: Path) -> Any:
     path = Path(tempfile.mkdtemp(dir=scratch.parent)) / "cloud.vdb"
     vdb.write(str(path), grids=[grid])
     data = bpy.data.volumes.new("cloud")
-    data.filepath, data.render.step_size = str(path), 0.02
+    data.filepath, data.render.step_size = str(path), 0.1
     material, tree = parts.material("cloud")
     node = tree.nodes.new("ShaderNodeVolumePrincipled")
     node.inputs["Color"].default_value, node.inputs["Density"].default_value = COLOR, 2
@@ -165,7 +165,7 @@ def _render(path: Path, engine: str, bounces: int) -> None:
     cycles = scene.cycles
     for limit in ("max", "diffuse", "glossy", "volume"):
         setattr(cycles, f"{limit}_bounces", bounces)
-    cycles.sample_clamp_indirect, cycles.blur_glossy, cycles.volume_step_rate = 0, 0, 0.2
+    cycles.sample_clamp_indirect, cycles.blur_glossy, cycles.volume_step_rate = 0, 0, 0.5
     if hasattr(cycles, "volume_biased"):  # from Blender 5.0
         cycles.volume_biased = False
     parts.render_steady(path, engine, SAMPLES[engine], filter_px=1.0)
