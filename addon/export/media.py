@@ -65,7 +65,7 @@ def _factored(parts: list[Array]) -> tuple[NDArray[np.float64] | None, NDArray[n
         return None, np.concatenate(parts).astype(np.float64), True
     totals = sum(part.sum(axis=1, dtype=np.float64) for part in parts)
     most = totals.max()
-    if not most > 0:
+    if most <= 0:
         return None, np.zeros((len(parts), 3)), True
     density = totals / most
     colours = (

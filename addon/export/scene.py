@@ -21,7 +21,7 @@ from .light import export_light
 from .material import MaterialTable
 from .mesh import edits_applied, mesh_arrays
 from .smoke import has_smoke, smoke_domain, smoke_grids
-from .volume_object import box_arrays, volume_grids
+from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
 
 # Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
@@ -173,18 +173,18 @@ class _Exporter:
 
     def _volume_group(self, blender_object: bpy.types.Object, object_to_world: Any) -> _Group | None:
         """The box around a Volume object's grids; None where there is nothing to see."""
-        scale = np.linalg.norm(object_to_world[:3, :3], axis=0).round(6).tobytes()  # which tells how dense it is
+        scale = round(density_scale(blender_object.data, object_to_world), 6)
         key = (blender_object.original.as_pointer(), blender_object.data.as_pointer(), scale)
         if key not in self._groups:
             self._check_cancel()
-            self._groups[key] = self._make_volume_group(blender_object, object_to_world)
+            self._groups[key] = self._make_volume_group(blender_object, scale)
         return self._groups[key]
 
-    def _make_volume_group(self, blender_object: bpy.types.Object, object_to_world: Any) -> _Group | None:
+    def _make_volume_group(self, blender_object: bpy.types.Object, scale: float) -> _Group | None:
         name, reporter = f"object '{blender_object.name}'", self._context.reporter
         for described in (blender_object, blender_object.data):
             report_left_out(described, name, reporter)
-        grids = volume_grids(blender_object, object_to_world, reporter)
+        grids = volume_grids(blender_object, scale, reporter)
         slot_materials = [slot.material for slot in blender_object.material_slots]
         filling = self._materials.filling(slot_materials, blender_object, grids) if grids else None
         if filling is None or filling.lattice is None:  # Cycles, too, makes a volume only where it reads a grid

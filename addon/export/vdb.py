@@ -14,7 +14,7 @@ from .grids import Grid
 
 # The value of voxel (i, j, k) is at (i, j, k) + this. [Cycles 4.5 device/cpu/image.h, Cycles 5.0 util/texture_3d.h]
 _CENTRE = 0.0 if bpy.app.version >= (5, 0) else 0.5
-_MOST_VOXELS = 1 << 30
+_MOST_VOXELS = 1 << 27  # in the box of a grid, where an export takes some 100 bytes for each
 
 
 def openvdb_module() -> ModuleType | None:
@@ -30,7 +30,7 @@ def openvdb_module() -> ModuleType | None:
 def read_grid(openvdb: Any, path: Path, name: str) -> Grid | None:
     """A grid of a file over the box that its active voxels fill; None where there is none of the name.
 
-    Raises ValueError for one that is too large.
+    Raises ValueError for one that is too large, or not of finite numbers.
     """
     if name not in {metadata.name for metadata in openvdb.readAllGridMetadata(str(path))}:
         return None
@@ -40,10 +40,14 @@ def read_grid(openvdb: Any, path: Path, name: str) -> Grid | None:
     low, high = grid.evalActiveVoxelBoundingBox()
     size = tuple(b - a + 1 for a, b in zip(low, high, strict=True))
     if np.prod(size, dtype=np.int64) > _MOST_VOXELS:
-        raise ValueError(f"its grid '{name}' of {size[0]} x {size[1]} x {size[2]} voxels is too large")
+        raise ValueError(
+            f"its grid '{name}' of {size[0]} x {size[1]} x {size[2]} voxels is too large, more than {_MOST_VOXELS}"
+        )
     channels = () if isinstance(grid.zeroValue, int | float) else (3,)
     values = np.zeros((*size, *channels), np.float32)
     grid.copyToArray(values, ijk=low)
+    if not np.isfinite(values).all():
+        raise ValueError(f"its grid '{name}' has numbers that are not finite")
     object_from_index = _object_from_index(grid.transform)
     shift = np.eye(4)
     shift[:3, 3] = -np.array(low) - _CENTRE

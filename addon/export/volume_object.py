@@ -15,10 +15,17 @@ from .grids import Grid, Grids, Lattice
 from .vdb import openvdb_module, read_grid
 
 
-def volume_grids(
-    blender_object: bpy.types.Object, object_to_world: NDArray[np.float32], reporter: Reporter
-) -> Grids | None:
-    """Those of an evaluated Volume object's file; None, which is reported, where they cannot be read."""
+def density_scale(data: bpy.types.Volume, object_to_world: NDArray[np.float32]) -> float:
+    """How much thinner a volume is as its object is larger. [Cycles 4.5 scene/object.cpp, object_volume_density]"""
+    length = float(np.linalg.norm(object_to_world[:3, :3].astype(float) @ np.full(3, 3**-0.5)))
+    return 1 / length if data.render.space == "OBJECT" and length > 0 else 1.0
+
+
+def volume_grids(blender_object: bpy.types.Object, scale: float, reporter: Reporter) -> Grids | None:
+    """Those of an evaluated Volume object's file; None, which is reported, where they cannot be read.
+
+    scale: the object's density_scale.
+    """
     where, data = f"object '{blender_object.name}'", blender_object.data
     openvdb = openvdb_module()
     if openvdb is None:
@@ -41,17 +48,11 @@ def volume_grids(
     def read(name: str) -> Grid | None:
         try:
             return read_grid(openvdb, path, name)
-        except (ValueError, OSError, RuntimeError) as error:
+        except (ValueError, TypeError, KeyError, OSError, RuntimeError) as error:
             reporter.warn(f"{where}: {error}, it is left out")
             return None
 
-    scale = _density_scale(object_to_world) if data.render.space == "OBJECT" else 1.0
     return Grids(functools.cache(read), key=(str(path), scale), density_scale=scale)
-
-
-def _density_scale(object_to_world: NDArray[np.float32]) -> float:
-    """How much thinner a volume is as its object is larger. [Cycles 4.5 scene/object.cpp, object_volume_density]"""
-    return 1 / float(np.linalg.norm(object_to_world[:3, :3].astype(float) @ np.full(3, 3**-0.5)))
 
 
 def box_arrays(lattice: Lattice) -> dict[str, Any]:

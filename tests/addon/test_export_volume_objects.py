@@ -103,5 +103,8 @@ def test_what_cannot_be_shown_is_said(clouds: Any) -> None:
     assert clouds["generated"]["reports"] == [
         "Pivot: object 'cloud': volumes that modifiers or geometry nodes make are not supported, it is left out"
     ]
-    for name in ("missing", "generated", "unread"):
+    [endless] = clouds["endless"]["reports"]
+    assert endless == "Pivot: object 'cloud': its grid 'density' has numbers that are not finite, it is left out"
+    for name in ("missing", "generated", "unread", "endless"):
         assert clouds[name]["instances"] == {}
+    assert clouds["flat"]["reports"] == []

@@ -24,7 +24,7 @@ def main(folder: Path) -> Any:
         return results
     density, heat = _write(vdb, path)
     results |= {"density": density.tolist(), "temperature": heat.tolist()}
-    for make in (_plain, _bare, _world_space, _fire, _sequence, _missing, _generated, _unread):
+    for make in (_plain, _bare, _world_space, _fire, _sequence, _missing, _generated, _unread, _flat, _endless):
         parts.clear()
         parts.camera()
         make(path)
@@ -97,6 +97,19 @@ def _generated(path: Path) -> None:
 def _unread(path: Path) -> None:
     """It asks for a grid that the file has not."""
     _volume(path, Density_Attribute="smoke")
+
+
+def _flat(path: Path) -> None:
+    _volume(path).scale = (0, 0, 0)
+
+
+def _endless(path: Path) -> None:
+    grid = sys.modules["pivot.export.vdb"].openvdb_module().FloatGrid()
+    grid.name = "density"
+    grid.copyFromArray(np.full((2, 2, 2), np.inf, np.float32))
+    other = path.with_name("endless.vdb")
+    sys.modules["pivot.export.vdb"].openvdb_module().write(str(other), grids=[grid])
+    _volume(other)
 
 
 def _lacking(path: Path) -> list[str]:
