@@ -50,11 +50,14 @@ _BUILT_IN = (
     "DATA_PT_uv_texture",
     "DATA_PT_vertex_colors",
     "DATA_PT_vertex_groups",
+    "DATA_PT_volume_*",
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_surface",
+    "EEVEE_MATERIAL_PT_volume",
     "MATERIAL_PT_preview",
     "MATERIAL_PT_custom_props",
     "EEVEE_WORLD_PT_surface",
+    "EEVEE_WORLD_PT_volume",
     "WORLD_PT_context_world",
     "WORLD_PT_custom_props",
     "PARTICLE_PT_*",
@@ -142,8 +145,9 @@ class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Include")
         for entry in PASSES:
-            if not entry.is_own:
-                column.prop(context.view_layer, entry.switch, text=entry.name_5_0)
+            switches = entry.switches(context.view_layer)
+            if entry.settings != "pivot" and switches is not None:
+                column.prop(switches, entry.switch, text=entry.name_5_0)
 
 
 class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
@@ -153,7 +157,7 @@ class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Analytic")
         for entry in PASSES:
-            if entry.is_own:
+            if entry.settings == "pivot":
                 column.prop(context.view_layer.pivot, entry.switch)
 
 
@@ -164,6 +168,15 @@ class PIVOT_OBJECT_PT_ray_visibility(PivotPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         _columns(self).prop(context.object, "visible_camera", text="Camera")
+
+
+class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
+    bl_label = "Fog"
+    bl_context = "material"
+    bl_parent_id = "EEVEE_MATERIAL_PT_volume"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _columns(self).prop(context.material.pivot, "phase")
 
 
 class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
@@ -213,6 +226,7 @@ _CLASSES = (
     PIVOT_VIEWLAYER_PT_passes,
     PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
+    PIVOT_MATERIAL_PT_fog,
     PIVOT_LIGHT_PT_light,
 )
 

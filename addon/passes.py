@@ -18,14 +18,18 @@ class Pass:
     name_5_0: str
     channels: str
     kind: str  # of RenderEngine.register_pass
-    switch: str  # of bpy.types.ViewLayer, or of its `pivot` where the pass is Pivot's own
-    is_own: bool = False
+    switch: str
+    settings: str = ""  # the part of bpy.types.ViewLayer that has the switch: "pivot", or "cycles" with its addon
 
     def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
         return self.name_5_0 if version >= (5, 0) else self.name
 
+    def switches(self, view_layer: bpy.types.ViewLayer) -> Any | None:
+        """What has the switch, None without the addon."""
+        return getattr(view_layer, self.settings, None) if self.settings else view_layer
+
     def is_on(self, view_layer: bpy.types.ViewLayer) -> bool:
-        return getattr(view_layer.pivot if self.is_own else view_layer, self.switch)
+        return getattr(self.switches(view_layer), self.switch, False)
 
 
 PASSES = (
@@ -35,8 +39,10 @@ PASSES = (
     Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
     Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color"),
     Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
-    Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", is_own=True),
-    Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", is_own=True),
+    Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
+    Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
+    Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
+    Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )
 
 

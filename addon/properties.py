@@ -31,6 +31,11 @@ OCCLUSIONS = (
     ("NONE", "None", "Lights cast no shadows"),
 )
 
+PHASES = (
+    ("HENYEY_GREENSTEIN", "Henyey-Greenstein", "As in Cycles"),
+    ("PIVOT", "Pivot", "The phase function that sphere lights are sampled exactly with, of the same mean direction"),
+)
+
 
 class PivotSettings(bpy.types.PropertyGroup):
     integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO")
@@ -147,6 +152,13 @@ class PivotMaterial(bpy.types.PropertyGroup):
         ),
         update=_material_changed,
         type=bpy.types.Image,
+    )
+    phase: EnumProperty(
+        name="Phase",
+        description="How the fog within scatters light around the direction that Anisotropy tells",
+        items=PHASES,
+        default="HENYEY_GREENSTEIN",
+        update=_material_changed,
     )
 
 

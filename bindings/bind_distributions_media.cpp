@@ -1,6 +1,6 @@
 #include "bindings/register.h"
 #include "bindings/vectorize.h"
-#include "core/media/pivot_phase.h"
+#include "core/media/phase_over_cap.h"
 
 namespace pivot::bindings {
 
@@ -37,6 +37,15 @@ void register_media(py::module_& distributions) {
     define(
         distributions, "henyey_greenstein_mean_cosine", "henyey_greenstein_mean_cosine(g): g itself.",
         []<class T>(T g) { return mean_cosine(HenyeyGreenstein<T>{g}); }, g_spec);
+    define(
+        distributions, "henyey_greenstein_cap_integral",
+        "henyey_greenstein_cap_integral(g, omega_o, light_axis, light_versine): the phase function's integral over a "
+        "sphere\n"
+        "light's cap, in [0, 1], to half a percent. Arguments as of pivot_phase_cap_integral.",
+        []<class T>(T g, const Vec3<T>& omega_o, const Vec3<T>& axis, T versine) {
+            return integrate(HenyeyGreenstein<T>{g}, omega_o, Cap<T>{axis, versine});
+        },
+        g_spec, omega_o_spec, light_axis_spec, light_versine_spec);
     define(
         distributions, "pivot_phase_eval",
         "pivot_phase_eval(g_p, mu): the pivot phase function per steradian, also the pdf of its sampling.\n\n"

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <cstddef>
+#include <cstring>
 #include <map>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "bindings/register.h"
 #include "core/bsdf/lobe.h"
 #include "core/shaders/shader.h"
+#include "core/shaders/volume_places.h"
 #include "core/textures/image.h"
 
 namespace pivot::bindings {
@@ -59,6 +61,47 @@ std::uint32_t add_step(Program& program, const string& name, const std::vector<s
     std::vector<Input> numbers;
     for (const auto& input : inputs) numbers.push_back(to_input(input));
     return program.add(name, std::move(numbers), {settings, image.value_or(nullptr)}, neighbour);
+}
+
+py::array_t<float> run_at(const Program& program, const FloatArray& positions_object, const FloatArray& object_to_world,
+                          const std::vector<std::uint32_t>& registers,
+                          const std::map<std::uint32_t, FloatArray>& attributes, const std::array<float, 4>& color,
+                          float pass_index, float random,
+                          const std::map<std::uint32_t, std::array<float, 4>>& object_attributes) {
+    require_shape(positions_object, "positions_object", {-1, 3});
+    require_shape(object_to_world, "object_to_world", {4, 4});
+    for (const std::uint32_t index : registers)
+        if (index >= program.register_count())
+            throw py::value_error("the program has no register " + std::to_string(index));
+    const py::ssize_t count = positions_object.shape(0);
+    VolumePoints points{.positions_object = std::vector<Vec3f>(static_cast<std::size_t>(count)),
+                        .attributes = {},
+                        .world_from_object = to_transform(object_to_world.data()),
+                        .object = {}};
+    points.object.color = Rgb(color[0], color[1], color[2]);
+    points.object.alpha = color[3];
+    points.object.pass_index = pass_index;
+    points.object.random = random;
+    std::memcpy(points.positions_object.data(), positions_object.data(),
+                sizeof(Vec3f) * points.positions_object.size());
+    for (const auto& [id, values] : attributes) {
+        require_shape(values, "attributes", {count, -1});
+        const py::ssize_t width = values.shape(1);
+        if (width < 1 || width > 4) throw py::value_error("attributes have one to four numbers each");
+        points.attributes.push_back({id, false, static_cast<std::uint32_t>(width),
+                                     std::vector<float>(values.data(), values.data() + values.size())});
+    }
+    std::vector<ObjectAttribute> of_object;
+    for (const auto& [id, value] : object_attributes) of_object.push_back({id, value});
+    points.object.attributes = std::make_shared<const std::vector<ObjectAttribute>>(std::move(of_object));
+
+    py::array_t<float> result({count, static_cast<py::ssize_t>(registers.size())});
+    const std::vector<float> numbers = [&] {
+        const py::gil_scoped_release release;
+        return run_in_volume(program, std::move(points), registers);
+    }();
+    std::ranges::copy(numbers, result.mutable_data());
+    return result;
 }
 
 /// Where a named number or colour of a material lies, in floats.
@@ -167,7 +210,15 @@ void register_shaders(py::module_& module) {
              "those of bump_neighbour. image: of an op that looks one up.")
         .def("bump_neighbour", &Program::bump_neighbour, py::arg("filter_width"),
              "The first of two neighbours along the directions that bump mapping takes, filter_width footprints away.")
-        .def("run_nowhere", &Program::run_nowhere, "The registers where there is no surface.");
+        .def("run_nowhere", &Program::run_nowhere, "The registers where there is no surface.")
+        .def("run_at", &run_at, py::arg("positions_object"), py::arg("object_to_world"), py::arg("registers"),
+             py::kw_only(), py::arg("attributes") = py::dict(),
+             py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f}, py::arg("pass_index") = 0.0f,
+             py::arg("random") = 0.0f, py::arg("object_attributes") = py::dict(),
+             "The chosen registers, (N, registers), at points (N, 3) within an object. What shaders ask of the mesh is "
+             "in attributes, by Scene.attribute_id: (N, 1..4); of the object in color, pass_index, random, and "
+             "object_attributes by the same. There is no normal, ray or camera.")
+        .def_property_readonly("ops", &Program::ops, "The names of its ops, in order.");
     py::class_<Shader>(module, "Shader", "A Material of which some numbers are a program's registers.")
         .def(py::init(&constant_shader), py::arg("constants"))
         .def(py::init(&make_shader), py::arg("constants"), py::arg("program"), py::arg("varying"),

@@ -28,6 +28,16 @@ class Register(NamedTuple):
 Part = float | Register
 
 
+class Step(NamedTuple):
+    """An op that the program runs."""
+
+    op: str
+    inputs: tuple[Part, ...]
+    settings: tuple[float, ...]
+    reads_image: bool
+    outputs: tuple[Register, ...]
+
+
 @dataclass(frozen=True)
 class Value:
     """A number, or a colour or vector: one part or three, each a number or a register."""
@@ -137,7 +147,8 @@ class Program:
         self.program = core.Program()
         self.attributes: set[str] = set()  # that the meshes of this material must have
         self.ops: dict[str, tuple[int, int, bool]] = core.ops()
-        self._steps: dict[Any, tuple[Part, ...]] = {}
+        self.steps: list[Step] = []
+        self._results: dict[Any, tuple[Part, ...]] = {}  # of ops, by all that they depend on
 
     def number(self, number: float) -> Value:
         return Value((float(np.float32(number)),), self)
@@ -175,16 +186,18 @@ class Program:
         settings = tuple(float(setting) for setting in settings)
         neighbour = neighbour if reads_place else 0
         key = (name, tuple(parts), settings, id(image), neighbour)
-        if key not in self._steps:
+        if key not in self._results:
             if image is None and not reads_place and not any(isinstance(part, Register) for part in parts):
                 result = self.core.run_op(name, np.array([parts], np.float32), list(settings))[0]
-                self._steps[key] = tuple(float(part) for part in result)
+                self._results[key] = tuple(float(part) for part in result)
             else:
                 numbers = [(part.index, 0.0) if isinstance(part, Register) else (-1, part) for part in parts]
                 extra = {} if image is None else {"image": image}
                 first = self.program.add(name, numbers, list(settings), neighbour, **extra)
-                self._steps[key] = tuple(Register(first + i) for i in range(output_count))
-        return Value(self._steps[key], self)
+                outputs = tuple(Register(first + i) for i in range(output_count))
+                self.steps.append(Step(name, tuple(parts), settings, image is not None, outputs))
+                self._results[key] = outputs
+        return Value(self._results[key], self)
 
     def each(self, name: str, *inputs: Value | float) -> Value:
         """An op of numbers on each part of its inputs; one part stands for three."""

@@ -20,10 +20,12 @@ from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable
 from .mesh import edits_applied, mesh_arrays
+from .smoke import has_smoke, smoke_domain, smoke_grids
+from .volume_object import box_arrays, volume_grids
 from .world import export_world
 
 # Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
-_UNSUPPORTED = {"CURVES", "POINTCLOUD", "VOLUME", "GPENCIL", "GREASEPENCIL"}
+_UNSUPPORTED = {"CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,20 @@ class _Group:
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
+
+
+def _group_of(
+    blender_object: bpy.types.Object, mesh: int, materials: tuple[int, ...], reads: frozenset[str] = frozenset()
+) -> _Group:
+    return _Group(
+        name=blender_object.name,
+        mesh=mesh,
+        materials=materials,
+        camera_visible=blender_object.visible_camera,
+        color=tuple(blender_object.color),
+        pass_index=blender_object.pass_index,
+        reads=reads,
+    )
 
 
 def export_scene(
@@ -81,27 +97,31 @@ class _Exporter:
         self._check_cancel = check_cancel
         self._materials = MaterialTable(context)
         self._meshes: dict[tuple[int, frozenset[str]], int] = {}  # by the evaluated data's address, and what is read
-        self._groups: dict[tuple[int, int], _Group | None] = {}  # by the original object and the evaluated data
+        self._groups: dict[tuple[Any, ...], _Group | None] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
 
     def export_objects(self) -> None:
         instances = self._context.depsgraph.object_instances
         told = Instances.read(instances)
-        surfaces = self._context.depsgraph.view_layer_eval.use_solid
+        layer = self._context.depsgraph.view_layer_eval
         for index, instance in enumerate(instances):
             if not instance.show_self:
                 continue
             blender_object = instance.object
             if blender_object.type == "LIGHT":
                 export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
-            elif surfaces and blender_object.type == "MESH":
+            elif layer.use_solid and blender_object.type == "MESH":
                 group = self._group(blender_object, instance)
                 if group is not None:
                     self._instances[group].append(index)
                     if "particle:" in group.reads:
                         self._particles[group].append(particle_index(instance))
-            elif surfaces and blender_object.type in _UNSUPPORTED:
+            elif layer.use_volumes and blender_object.type == "VOLUME":
+                group = self._volume_group(blender_object, told.object_to_world[index])
+                if group is not None:
+                    self._instances[group].append(index)
+            elif layer.use_solid and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
         for group, indices in self._instances.items():
@@ -126,16 +146,51 @@ class _Exporter:
                 return None
             report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
             slot_materials = [slot.material for slot in blender_object.material_slots]
+            domain = smoke_domain(blender_object)
+            if domain is not None:
+                return self._smoke_group(blender_object, mesh, domain, slot_materials)
             materials, attributes = self._materials.slots(slot_materials, blender_object)
-            return _Group(
-                name=blender_object.name,
-                mesh=self._mesh(blender_object, mesh, attributes),
-                materials=materials,
-                camera_visible=blender_object.visible_camera,
-                color=tuple(blender_object.color),
-                pass_index=blender_object.pass_index,
-                reads=attributes,
+            return _group_of(blender_object, self._mesh(blender_object, mesh, attributes), materials, attributes)
+
+    def _smoke_group(
+        self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, domain: Any, slot_materials: list[Any]
+    ) -> _Group | None:
+        """A domain as Cycles has it: its volume within its mesh, and no surface."""
+        if not self._context.depsgraph.view_layer_eval.use_volumes:
+            return None
+        frame = self._context.depsgraph.scene_eval.frame_current
+        if not has_smoke(domain, frame):
+            self._warn(
+                blender_object,
+                f"it has no smoke at frame {frame} and is left out. Fix: bake it, or play it from its start",
             )
+            return None
+        filling = self._materials.filling(slot_materials, blender_object, smoke_grids(blender_object, domain))
+        if filling is None:
+            return None
+        materials = (filling.id,) * max(1, len(slot_materials))
+        return _group_of(blender_object, self._mesh(blender_object, mesh, frozenset()), materials)
+
+    def _volume_group(self, blender_object: bpy.types.Object, object_to_world: Any) -> _Group | None:
+        """The box around a Volume object's grids; None where there is nothing to see."""
+        scale = np.linalg.norm(object_to_world[:3, :3], axis=0).round(6).tobytes()  # which tells how dense it is
+        key = (blender_object.original.as_pointer(), blender_object.data.as_pointer(), scale)
+        if key not in self._groups:
+            self._check_cancel()
+            self._groups[key] = self._make_volume_group(blender_object, object_to_world)
+        return self._groups[key]
+
+    def _make_volume_group(self, blender_object: bpy.types.Object, object_to_world: Any) -> _Group | None:
+        name, reporter = f"object '{blender_object.name}'", self._context.reporter
+        for described in (blender_object, blender_object.data):
+            report_left_out(described, name, reporter)
+        grids = volume_grids(blender_object, object_to_world, reporter)
+        slot_materials = [slot.material for slot in blender_object.material_slots]
+        filling = self._materials.filling(slot_materials, blender_object, grids) if grids else None
+        if filling is None or filling.lattice is None:  # Cycles, too, makes a volume only where it reads a grid
+            return None
+        mesh = self._context.scene.add_mesh(blender_object.name, **box_arrays(filling.lattice))
+        return _group_of(blender_object, mesh, (filling.id,))
 
     def _mesh(self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, attributes: frozenset[str]) -> int:
         """The core's mesh of an object's evaluated mesh. mesh: that, with what is edited in Edit Mode."""

@@ -22,7 +22,7 @@ from .nodes import (
     is_linked,
     normal,
     number,
-    output_surface,
+    output_socket,
     source,
 )
 from .program import Program, Value
@@ -38,7 +38,7 @@ def grey(program: Program) -> Surface:
 
 def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
     """What a material's node tree stands for."""
-    output = output_surface(tree)
+    output = output_socket(tree, "Surface")
     if output is None or not output.socket.is_linked:
         owner.reporter.warn(f"{owner.name}: nothing is linked to the Surface of its output, it is shown as grey")
         return grey(owner.program)
@@ -76,7 +76,7 @@ def _report_displacement(owner: Owner) -> None:
 def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Value:
     """The colour and strength that a light's or world's node tree multiplies its light with."""
     black = owner.program.colour((0, 0, 0))
-    output = output_surface(tree)
+    output = output_socket(tree, "Surface")
     if output is None:
         return black
     _leave_out(output, owner)

@@ -1,4 +1,4 @@
-"""The world: light from everywhere."""
+"""The world: light from everywhere, and fog."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ import bpy
 from ..report import naming
 from .census import report_left_out
 from .context import Context
+from .media import core_medium
 from .nodes import Owner, active_tree
 from .program import Program
 from .shader import light_emission
 from .surface import Surface
+from .volume import node_volume, output_volume
 
 
 def export_world(context: Context) -> None:
-    """Set the core's world to that of the view layer."""
+    """Set the core's world, and what fills it, to that of the view layer."""
     view_layer = context.depsgraph.view_layer_eval
     world: bpy.types.World | None = getattr(view_layer, "world_override", None) or context.depsgraph.scene_eval.world
     if world is None or not view_layer.use_sky:
@@ -28,6 +30,7 @@ def export_world(context: Context) -> None:
         radiance = program.colour(world.color)
     else:
         radiance = light_emission(tree, Owner(owner, context.reporter, program, world))
+        _set_medium(context, tree, owner, world)
     with naming(owner, "give its colour and strength finite values"):
         if radiance.is_constant:
             context.scene.set_world(radiance=radiance.numbers)
@@ -37,3 +40,10 @@ def export_world(context: Context) -> None:
                     f"{owner}: in the analytic integrator it lights by its mean. Fix: use Monte Carlo"
                 )
             context.scene.set_world_shader(Surface.of(program, emission=radiance).core_shader(context.core))
+
+
+def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World) -> None:
+    target = output_volume(tree)
+    if target is not None:
+        owner = Owner(name, context.reporter, Program(context.core, context.scene, context.images), world)
+        context.scene.set_world_medium(core_medium(context.core, node_volume(target, owner), owner))

@@ -41,13 +41,93 @@ __all__: list[str] = [
 
 class VoxelGrid:
     """
-    Numbers on a regular grid, interpolated linearly. values: (z, y, x) or (z, y, x, 3), at least 0; that at [k, j, i] stands at the point (i, j, k) of grid space, and beyond the outermost they fall to 0 within one voxel. grid_from_object: (4, 4).
+    Numbers on a regular grid, interpolated linearly. values: (z, y, x) or (z, y, x, 3), at least 0; that at [k, j, i] stands at the point (i, j, k) of grid space, and beyond the outermost they fall to 0 within one voxel. They are kept with 16 bits, in parts of the largest of 8^3 around, and not where that is 0. grid_from_object: (4, 4). Rays are in grid space: origin, and direction by metre.
     """
     def __init__(
         self,
         values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         grid_from_object: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     ) -> None: ...
+    def at(
+        self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The values (N, 3) at points (N, 3) of grid space; of one channel, the same thrice.
+        """
+    def at_each(
+        self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The same, point by point.
+        """
+    def cells(
+        self,
+        origin: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        near_m: typing.SupportsFloat | typing.SupportsIndex,
+        far_m: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> list[typing.Annotated[list[float], "FixedSize(3)"]]:
+        """
+        (near_m, far_m, majorant) of each part of a ray where the grid is not empty, in order.
+        """
+    def density_integral(
+        self,
+        origin: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        near_m: typing.SupportsFloat | typing.SupportsIndex,
+        far_m: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> float:
+        """
+        The integral of the density along a ray.
+        """
+    def sample_collisions(
+        self,
+        origin: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        near_m: typing.SupportsFloat | typing.SupportsIndex,
+        far_m: typing.SupportsFloat | typing.SupportsIndex,
+        sigma_t: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        throughput: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        seed: typing.SupportsInt | typing.SupportsIndex,
+        count: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (count, 4): distances in m, infinite where a ray goes through, and the throughput from there on.
+        """
+    def transmittances(
+        self,
+        origin: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        near_m: typing.SupportsFloat | typing.SupportsIndex,
+        far_m: typing.SupportsFloat | typing.SupportsIndex,
+        sigma_t: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        seed: typing.SupportsInt | typing.SupportsIndex,
+        count: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (count, 3): unbiased estimates of exp(-sigma_t density_integral).
+        """
+    @property
+    def memory_bytes(self) -> int: ...
+    @property
+    def most(self) -> float:
+        """
+        No value is above it.
+        """
 
 class Medium:
     """
@@ -239,9 +319,36 @@ class Program:
         """
         The first of two neighbours along the directions that bump mapping takes, filter_width footprints away.
         """
+    def run_at(
+        self,
+        positions_object: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        registers: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        *,
+        attributes: collections.abc.Mapping[
+            typing.SupportsInt | typing.SupportsIndex, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+        ] = {},
+        color: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ] = [1.0, 1.0, 1.0, 1.0],
+        pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        random: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        object_attributes: collections.abc.Mapping[
+            typing.SupportsInt | typing.SupportsIndex,
+            typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"],
+        ] = {},
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The chosen registers, (N, registers), at points (N, 3) within an object. What shaders ask of the mesh is in attributes, by Scene.attribute_id: (N, 1..4); of the object in color, pass_index, random, and object_attributes by the same. There is no normal, ray or camera.
+        """
     def run_nowhere(self) -> list[float]:
         """
         The registers where there is no surface.
+        """
+    @property
+    def ops(self) -> list[str]:
+        """
+        The names of its ops, in order.
         """
 
 class Shader:

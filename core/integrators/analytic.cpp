@@ -1,5 +1,6 @@
 #include "core/integrators/analytic.h"
 
+#include "core/integrators/analytic_fog.h"
 #include "core/integrators/area_light_shading.h"
 #include "core/integrators/arrival.h"
 #include "core/integrators/bump_share.h"
@@ -100,6 +101,18 @@ void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& refl
     }
 }
 
+/// What media leave of a light on its way to each lane.
+void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
+    if (scene.media().is_empty()) return;
+    MediaRay ray(scene.media());
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const Rgb left = transmittance_from(light, batch.lanes[i]->point.position, ray);
+        reflection.diffuse[i] *= left;
+        reflection.glossy[i] *= left;
+        reflection.shadow_variance[i] *= sqr(mean_component(left));
+    }
+}
+
 /// All lights in closed form first: one that gives little of the total needs few rays for its share of the budget.
 void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                 const SurfaceBatch& batch, std::span<Gathered> gathered) {
@@ -119,6 +132,7 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
         if (settings.occlusion == Occlusion::ray_traced)
             reflection = seen_by_rays(shadings[k], scene, points.for_share(share));
         apply_bumps(scene.lamps()[k], batch, reflection);
+        apply_media(scene, scene.lamps()[k], batch, reflection);
         for (std::size_t i = 0; i < batch.count; ++i) {
             if (settings.occlusion == Occlusion::bent_cone) {
                 const auto& [point, surface, bent_cone] = *batch.lanes[i];
@@ -135,7 +149,12 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
     }
 }
 
-LaneShares world_seen_by_rays(const Scene& scene, const FixedPoints& points, const ShadingPoint& shading) {
+/// What each lobe sees of the world, and what media leave of that.
+struct WorldSeen {
+    LaneShares shares;
+    Rgb through_to_diffuse{1.0f}, through_to_glossy{1.0f};
+};
+WorldSeen world_seen_by_rays(const Scene& scene, const FixedPoints& points, const ShadingPoint& shading) {
     const auto& [point, surface, bent_cone] = shading;
     struct Probe {
         VisibleShare LaneShares::*share;
@@ -166,10 +185,20 @@ LaneShares world_seen_by_rays(const Scene& scene, const FixedPoints& points, con
     }
     std::vector<std::uint8_t> occluded(rays.size());
     scene.occluded(rays, occluded);
-    LaneShares shares;
+    WorldSeen seen;
     for (std::size_t r = 0; r < rays.size(); ++r)
-        (shares.*probes[r].share).add(probes[r].weight, !occluded[r] && probes[r].is_faced);
-    return shares;
+        (seen.shares.*probes[r].share).add(probes[r].weight, !occluded[r] && probes[r].is_faced);
+    if (scene.media().is_empty()) return seen;
+    MediaRay through_media(scene.media());
+    Rgb diffuse(0.0f), glossy(0.0f);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+        if (occluded[r] || !probes[r].is_faced) continue;
+        through_media.follow(rays[r], nullptr);
+        (probes[r].share == &LaneShares::diffuse ? diffuse : glossy) += probes[r].weight * through_media.through();
+    }
+    if (seen.shares.diffuse.seen > 0.0f) seen.through_to_diffuse = diffuse / seen.shares.diffuse.seen;
+    if (seen.shares.glossy.seen > 0.0f) seen.through_to_glossy = glossy / seen.shares.glossy.seen;
+    return seen;
 }
 
 /// The world's light, which each lobe reflects by its albedo, times the share that each lobe's fixed directions see.
@@ -180,12 +209,15 @@ void add_world(const Scene& scene, const RenderSettings& settings, const FixedPo
     BumpShare bumped;
     if (surface.bump.is_turned())
         bumped = bump_share(surface.bump, above, bump_points_of_world, [](const Vec3f&) { return 1.0f; });
-    const Rgb diffuse = scene.world() * surface.diffuse * bumped.value;
-    const Rgb glossy = surface.has_glossy() ? scene.world() * glossy_albedo(surface) : Rgb(0.0f);
+    Rgb diffuse = scene.world() * surface.diffuse * bumped.value;
+    Rgb glossy = surface.has_glossy() ? scene.world() * glossy_albedo(surface) : Rgb(0.0f);
     LaneShares shares;
     float missed = 0.0f;
     if (settings.occlusion == Occlusion::ray_traced) {
-        shares = world_seen_by_rays(scene, points, shading);
+        const WorldSeen seen = world_seen_by_rays(scene, points, shading);
+        shares = seen.shares;
+        diffuse *= seen.through_to_diffuse;
+        glossy *= seen.through_to_glossy;
         missed = points.missed_variance();
     } else if (settings.occlusion == Occlusion::bent_cone) {
         const SeenShare seen = seen_share_of_world(bent_cone, point, surface);
@@ -290,6 +322,19 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
     std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the sample of each
+    const FixedPoints points(settings, sample_index);
+    std::vector<FogLight> fog;  // of each sample, and what media let through; empty: there are none
+    std::vector<Rgb> through;
+    if (!scene.media().is_empty()) {
+        MediaRay media_ray(scene.media());
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            Ray ray = camera_rays[i];
+            if (hits[i]) ray.far_m = hits[i]->distance_m;
+            media_ray.follow(ray, nullptr);
+            through.push_back(media_ray.through());
+            fog.push_back(scatter_analytic(scene, settings, points, media_ray));
+        }
+    }
     const float spread = scene.camera().pixel_spread();
     for (std::size_t i = 0; i < hits.size(); ++i) {
         Sample& sample = samples[i] = {};
@@ -324,7 +369,6 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
     }
     const auto [shading, sample_of] = parts_of(scene, settings, surfaces);
     std::vector<Gathered> light(samples.size());
-    const FixedPoints points(settings, sample_index);
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
         std::array<Gathered, batch_size> gathered{};
@@ -341,6 +385,16 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
         sample.method = gathered.size > 0.0f ? gathered.method / gathered.size : Rgb(0.0f);
         sample.error = gathered.error;
         sample.shadow_variance = gathered.shadow_variance;
+    }
+    for (std::size_t i = 0; i < fog.size(); ++i) {
+        Sample& sample = samples[i];
+        const float left = mean_component(through[i]);
+        sample.radiance = sample.radiance * through[i] + fog[i].scattered + fog[i].emitted;
+        sample.emission = sample.emission * through[i] + fog[i].emitted;
+        sample.volume_direct = fog[i].scattered;
+        sample.error = sample.error * left + fog[i].error;
+        sample.shadow_variance = sample.shadow_variance * sqr(left) + fog[i].shadow_variance;
+        if (!hits[i] && settings.transparent_film) sample.alpha = 1.0f - left;
     }
 }
 

@@ -16,6 +16,8 @@ enum class PointSet : std::uint32_t {
     lobe_light = 5,
     lobe_direction = 6,
     lobe_world = 7,
+    fog_place = 8,
+    fog_lamp = 9,
 };
 
 /// The part of the sets that one camera sample takes: all samples together take enough that a penumbra's steps stay

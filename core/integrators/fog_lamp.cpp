@@ -1,5 +1,7 @@
 #include "core/integrators/fog_lamp.h"
 
+#include "core/media/phase_over_cap.h"
+
 namespace pivot {
 namespace {
 
@@ -65,49 +67,67 @@ Vec3b transmittance_to(const FogPart& part, const Vec3b& position, const Vec3b& 
 }
 
 /// sigma_s times each lobe's share of its light that comes from a cap.
-Vec3b scattered_of_cap(const FogPart& part, const Cap<Batch>& cap) {
+Vec3b scattered_of_cap(const FogPart& part, const Cap<Batch>& cap, bool precisely) {
     const Vec3b direction = broadcast(part.ray.ray().direction);
     Vec3b sum(Batch(0.0f));
     for (const ScatterLobe& lobe : part.mix.lobes)
-        sum += broadcast(lobe.sigma_s) * integrate(lobe.phase, proxy_of(lobe.phase), direction, cap);
+        sum += broadcast(lobe.sigma_s) * (precisely ? integrate_precisely(lobe.phase, direction, cap)
+                                                    : integrate(lobe.phase, proxy_of(lobe.phase), direction, cap));
     return sum;
 }
 
-Vec3b scattered_of(const SphereLight& light, const SpotLight* spot, const FogPart& part, const Vec3b& position) {
+/// The mean of a spot's falloff over the cap that its sphere is.
+Batch mean_falloff(const SpotLight& spot, const FogPart& part, const Cap<Batch>& cap, bool precisely) {
+    const auto falloff = [&](const Vec3b& wi) { return spot_falloff(spot, -dot(wi, broadcast(spot.direction))); };
+    const Frame<Batch> frame = frame_from_z(cap.axis);
+    Batch sum(0.0f), weights(0.0f);
+    const auto add = [&](const auto& rule) {
+        for (const Vec2f& xy : rule) {
+            const Batch versine = cap.versine * Batch(dot(xy, xy));
+            const Batch radius = safe_sqrt(cap.versine * (Batch(2.0f) - versine));
+            const Vec3b wi = frame.to_world({Batch(xy.x) * radius, Batch(xy.y) * radius, Batch(1.0f) - versine});
+            const Batch mu = dot(wi, broadcast(part.ray.ray().direction));
+            Batch weight(0.0f);
+            for (const ScatterLobe& lobe : part.mix.lobes)
+                weight += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, mu);
+            sum += weight * falloff(wi);
+            weights += weight;
+        }
+    };
+    if (precisely)
+        add(disk_rule<float, 16>());
+    else
+        add(disk_rule<float, 4>());
+    return sum / max(weights, tiny<Batch>);
+}
+
+Vec3b scattered_of(const SphereLight& light, const SpotLight* spot, const FogPart& part, const Vec3b& position,
+                   bool precisely) {
     const Cap<Batch> cap = cap_from(light, position);
-    Vec3b scattered = scattered_of_cap(part, cap) * broadcast(light.radiance);
-    if (spot) {
-        // Over the sphere's width the falloff is a mean of three places.
-        const Batch cosine = -dot(cap.axis, broadcast(spot->direction));
-        const Batch spread = Batch(0.7f) * sqrt(sin2_half_angle(cap)) * safe_sqrt(Batch(1.0f) - cosine * cosine);
-        scattered *= (spot_falloff(*spot, cosine - spread) + spot_falloff(*spot, cosine) +
-                      spot_falloff(*spot, min(cosine + spread, Batch(1.0f)))) *
-                     Batch(1.0f / 3.0f);
-    }
+    Vec3b scattered = scattered_of_cap(part, cap, precisely) * broadcast(light.radiance);
+    if (spot) scattered = scattered * mean_falloff(*spot, part, cap, precisely);
     return scattered;
 }
 
-Vec3b scattered_of(const SunLight& sun, const FogPart& part) {
+Vec3b scattered_of(const SunLight& sun, const FogPart& part, bool precisely) {
     const Cap<Batch> cap{broadcast(sun.cap.axis), Batch(sun.cap.versine)};
-    return scattered_of_cap(part, cap) * broadcast(sun.radiance);
+    return scattered_of_cap(part, cap, precisely) * broadcast(sun.radiance);
 }
 
-/// By four places on the light.
-Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& position) {
-    const float offset = light.shape == AreaShape::ellipse ? 0.5f : 0.57735f;
-    const Batch least2(light.area_m2 / 16.0f);
+Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& position, bool precisely) {
+    // Each cell by its solid angle; without precision four of them are one.
+    AreaCells cells = cells_of(light.shape);
+    if (!precisely) cells = light.shape == AreaShape::ellipse ? AreaCells{1, 8} : AreaCells{2, 2};
+    const float width = 1.0f / static_cast<float>(cells.columns), height = 1.0f / static_cast<float>(cells.rows);
     Vec3b sum(Batch(0.0f));
-    for (const float x : {-offset, offset}) {
-        for (const float y : {-offset, offset}) {
-            const Vec3b d = broadcast(light.center + x * light.half_u + y * light.half_v) - position;
-            const Batch r2 = max(length_squared(d), tiny<Batch>);
-            const Vec3b wi = d * inverse_sqrt(r2);
-            const Batch facing = max(-dot(wi, broadcast(light.normal)), Batch(0.0f));
-            const Batch mu = dot(wi, broadcast(part.ray.ray().direction));
-            Vec3b scattered(Batch(0.0f));
-            for (const ScatterLobe& lobe : part.mix.lobes) scattered += broadcast(lobe.sigma_s) * eval(lobe.phase, mu);
-            sum += scattered * (facing * Batch(0.25f * light.area_m2) / max(r2, least2));
-        }
+    for (std::size_t i = 0; i < cells.columns * cells.rows; ++i) {
+        const float u = static_cast<float>(i % cells.columns) * width,
+                    v = static_cast<float>(i / cells.columns) * height;
+        const SeenCell<Batch> seen =
+            see_cell<Batch>(light, position, {Batch(u), Batch(v)}, {Batch(u + width), Batch(v + height)});
+        const Batch mu = dot(seen.wi, broadcast(part.ray.ray().direction));
+        for (const ScatterLobe& lobe : part.mix.lobes)
+            sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, mu) * seen.solid_angle);
     }
     return sum * broadcast(light.radiance);
 }
@@ -147,12 +167,12 @@ DistanceMap distance_map(const Light& lamp, const FogPart& part, float near_m, f
     return {near_m, far_m, sigma_t, along_m, std::max(off_m, size_m), typical_g(part.mix)};
 }
 
-Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m) {
+Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m, bool precisely) {
     const Ray& ray = part.ray.ray();
     const Vec3b position = broadcast(ray.origin) + distance_m * broadcast(ray.direction);
-    if (const auto* sun = std::get_if<SunLight>(&lamp)) return scattered_of(*sun, part);
-    if (const auto* area = std::get_if<AreaLight>(&lamp)) return scattered_of(*area, part, position);
-    return scattered_of(*sphere_of(lamp), std::get_if<SpotLight>(&lamp), part, position);
+    if (const auto* sun = std::get_if<SunLight>(&lamp)) return scattered_of(*sun, part, precisely);
+    if (const auto* area = std::get_if<AreaLight>(&lamp)) return scattered_of(*area, part, position, precisely);
+    return scattered_of(*sphere_of(lamp), std::get_if<SpotLight>(&lamp), part, position, precisely);
 }
 
 Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m) {
@@ -169,46 +189,104 @@ Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch&
 FogLampSampler::FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,
                                LightSampling strategy)
     : lamp_(lamp),
-      mix_(mix),
       position_(position),
       direction_(direction),
       is_sampled_(strategy != LightSampling::bsdf),
+      shares_(strategy != LightSampling::light),
       cap_(cap_from(lamp, position)) {
-    const bool is_joint = strategy == LightSampling::joint || strategy == LightSampling::sptd;
-    shares_ = strategy != LightSampling::light && !(is_joint && cap_);
-    if (!is_joint || !cap_ || mix.lobes.size() > max_lobes) return;
-    is_joint_ = true;
-    float total = 0.0f;
+    if (strategy != LightSampling::joint && strategy != LightSampling::sptd) return;
+    if (const auto* area = std::get_if<AreaLight>(&lamp)) {
+        weigh_cells(*area, mix);
+    } else if (mix.lobes.size() <= max_lobes) {
+        weigh_lobes(mix);
+        shares_ = false;
+    }
+}
+
+void FogLampSampler::weigh_lobes(const MediumMix& mix) {
     for (const ScatterLobe& lobe : mix.lobes) {
         const PivotPhase<float> proxy = proxy_of(lobe.phase);
-        const float share = MediumMix::weight(lobe) * integrate(lobe.phase, proxy, direction, *cap_);
-        lobes_[lobe_count_++] = {proxy, share};
-        total += share;
+        proxies_[count_] = proxy;
+        probability_[count_++] = MediumMix::weight(lobe) * integrate(lobe.phase, proxy, direction_, *cap_);
     }
-    for (std::size_t i = 0; i < lobe_count_; ++i)
-        lobes_[i].probability = total > 0.0f ? lobes_[i].probability / total : 1.0f / static_cast<float>(lobe_count_);
+    normalize_probabilities();
+}
+
+void FogLampSampler::weigh_cells(const AreaLight& light, const MediumMix& mix) {
+    // A cell's middle may miss the peak of a phase function that falls into it.
+    constexpr float even_share = 0.1f;
+    const AreaCells cells = cells_of(light.shape);
+    const auto width = 1.0f / static_cast<float>(cells.columns), height = 1.0f / static_cast<float>(cells.rows);
+    const Vec3b position = broadcast(position_), direction = broadcast(direction_);
+    float total = 0.0f;
+    for (count_ = 0; count_ < area_cell_count; count_ += batch_size) {
+        const auto column = [&](std::size_t i) { return static_cast<float>((count_ + i) % cells.columns); };
+        const auto row = [&](std::size_t i) { return static_cast<float>((count_ + i) / cells.columns); };
+        const Batch u = gather(column) * Batch(width), v = gather(row) * Batch(height);
+        const SeenCell<Batch> seen = see_cell<Batch>(light, position, {u, v}, {u + Batch(width), v + Batch(height)});
+        const Batch mu = dot(seen.wi, direction);
+        Batch scattered(0.0f);
+        for (const ScatterLobe& lobe : mix.lobes) scattered += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, mu);
+        (scattered * seen.solid_angle).store_unaligned(&probability_[count_]);
+    }
+    for (std::size_t i = 0; i < count_; ++i) total += probability_[i];
+    const float even = even_share * total / static_cast<float>(area_cell_count);
+    for (std::size_t i = 0; i < count_; ++i) probability_[i] += even;
+    normalize_probabilities();
+}
+
+void FogLampSampler::normalize_probabilities() {
+    float total = 0.0f;
+    for (std::size_t i = 0; i < count_; ++i) total += probability_[i];
+    for (std::size_t i = 0; i < count_; ++i)
+        probability_[i] = total > 0.0f ? probability_[i] / total : 1.0f / static_cast<float>(count_);
 }
 
 std::optional<LightPoint> FogLampSampler::sample(const Vec2f& u) const {
     if (!is_sampled_) return std::nullopt;
-    if (!is_joint_) return sample_light(lamp_, position_, u);
+    if (count_ == 0) return sample_light(lamp_, position_, u);
+    // The first number chooses the lobe or the cell, and what is left of it the place within.
     float left = u.x;
     std::size_t chosen = 0;
-    while (chosen + 1 < lobe_count_ && left >= lobes_[chosen].probability) left -= lobes_[chosen++].probability;
-    const float place = std::min(left / std::max(lobes_[chosen].probability, tiny<float>), 1.0f - 0x1p-24f);
-    const Vec3f wi = pivot::sample(lobes_[chosen].proxy, direction_, *cap_, {place, u.y});
-    LightPoint point = light_point_in_cap(lamp_, *cap_, position_, wi);
-    point.pdf_omega = pdf_omega(point);
+    while (chosen + 1 < count_ && left >= probability_[chosen]) left -= probability_[chosen++];
+    left = std::min(left / std::max(probability_[chosen], tiny<float>), 1.0f - 0x1p-24f);
+    if (cap_) {
+        const Vec3f wi = pivot::sample(proxies_[chosen], direction_, *cap_, {left, u.y});
+        LightPoint point = light_point_in_cap(lamp_, *cap_, position_, wi);
+        point.pdf_omega = pdf_omega(point);
+        return point;
+    }
+    const auto& light = std::get<AreaLight>(lamp_);
+    const AreaCells cells = cells_of(light.shape);
+    const Vec2f uv((static_cast<float>(chosen % cells.columns) + left) / static_cast<float>(cells.columns),
+                   (static_cast<float>(chosen / cells.columns) + u.y) / static_cast<float>(cells.rows));
+    const Vec2f place = area_place(light.shape, uv);
+    const Vec3f d = light.center + place.x * light.half_u + place.y * light.half_v - position_;
+    const float distance_m = length(d);
+    if (!(distance_m > 0.0f)) return std::nullopt;
+    auto point = light_point(light, d / distance_m, distance_m);
+    if (point) point->pdf_omega *= probability_[chosen] * static_cast<float>(area_cell_count);
     return point;
 }
 
 float FogLampSampler::pdf_omega(const LightPoint& place) const {
     if (!is_sampled_) return 0.0f;
-    if (!is_joint_) return place.pdf_omega;
-    float sum = 0.0f;
-    for (std::size_t i = 0; i < lobe_count_; ++i)
-        sum += lobes_[i].probability * pdf_omega_uniform_inside(pivot(lobes_[i].proxy, direction_), *cap_, place.wi);
-    return sum;
+    if (count_ == 0) return place.pdf_omega;
+    if (cap_) {
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < count_; ++i)
+            sum += probability_[i] * pdf_omega_uniform_inside(pivot(proxies_[i], direction_), *cap_, place.wi);
+        return sum;
+    }
+    const auto& light = std::get<AreaLight>(lamp_);
+    const AreaCells cells = cells_of(light.shape);
+    const Vec2f uv = area_uv(light.shape, area_coordinates(light, position_ + place.distance_m * place.wi));
+    const auto part = [](float x, std::size_t count) {
+        return std::min(static_cast<std::size_t>(std::max(x, 0.0f) * static_cast<float>(count)), count - 1);
+    };
+    const std::size_t cell = part(uv.y, cells.rows) * cells.columns + part(uv.x, cells.columns);
+    const auto even = light_point(light, place.wi, place.distance_m);
+    return even ? even->pdf_omega * probability_[cell] * static_cast<float>(area_cell_count) : 0.0f;
 }
 
 }  // namespace pivot

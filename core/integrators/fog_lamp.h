@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/integrators/area_cells.h"
 #include "core/integrators/distance_map.h"
 #include "core/integrators/media_ray.h"
 #include "core/integrators/settings.h"
@@ -25,14 +26,16 @@ std::optional<std::pair<float, float>> lit_part(const Light& lamp, const FogPart
 DistanceMap distance_map(const Light& lamp, const FogPart& part, float near_m, float far_m);
 
 /// About the radiance that each m of the ray scatters towards its origin where the interval is as is typical, if
-/// nothing is in the lamp's way: without what the media take along the ray.
-Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m);
+/// nothing is in the lamp's way: without what the media take along the ray. precisely: to half a percent, of lamps that
+/// shine alike over all they cover.
+Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m, bool precisely = false);
 
 /// About what the media leave of the lamp's light up to places of the ray, as if they filled the boxes around them.
 Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m);
 
 /// Samples of a lamp from a place in fog. By strategies joint and sptd a cap-shaped lamp is drawn jointly with the
-/// pivot phase functions that stand for the lobes, so that BSDF samples need not share; else evenly.
+/// pivot phase functions that stand for the lobes, so that samples of the phase function need not share, and an area
+/// lamp cell by cell, by what is scattered of each; else evenly.
 class FogLampSampler {
    public:
     FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,
@@ -45,18 +48,19 @@ class FogLampSampler {
     float pdf_omega(const LightPoint& place) const;
 
    private:
-    const Light& lamp_;
-    const MediumMix& mix_;
-    Vec3f position_, direction_;
-    bool is_joint_ = false, shares_ = true, is_sampled_ = true;
-    std::optional<Cap<float>> cap_;
-    struct Lobe {
-        PivotPhase<float> proxy;
-        float probability;
-    };
     static constexpr std::size_t max_lobes = 8;
-    std::array<Lobe, max_lobes> lobes_;  ///< the joint ones
-    std::size_t lobe_count_ = 0;
+
+    void weigh_lobes(const MediumMix& mix);
+    void weigh_cells(const AreaLight& light, const MediumMix& mix);
+    void normalize_probabilities();
+
+    const Light& lamp_;
+    Vec3f position_, direction_;
+    bool is_sampled_, shares_;
+    std::optional<Cap<float>> cap_;
+    std::array<PivotPhase<float>, max_lobes> proxies_;
+    std::array<float, area_cell_count> probability_;  ///< of each joint lobe, or of each cell
+    std::size_t count_ = 0;
 };
 
 }  // namespace pivot

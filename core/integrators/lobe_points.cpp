@@ -3,6 +3,7 @@
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/media_ray.h"
 #include "core/shading/method.h"
 
 namespace pivot {
@@ -48,7 +49,8 @@ Vec3f lobe_numbers(const FixedPoints& points, PointSet set, std::uint32_t k, std
 
 /// The points' sum, and what of it is seen.
 struct Seen {
-    Rgb radiance{0.0f};
+    Rgb radiance{0.0f};  ///< without what media take
+    Rgb through{1.0f};   ///< and what they leave of it
     VisibleShare share;
 
     float variance() const { return sqr(share.all) * share.variance(); }
@@ -64,6 +66,16 @@ Seen look(const Scene& scene, const SurfacePoint& point, std::span<const Weighte
         if (!occluded[i]) result.radiance += all[i].value;
         result.share.add(mean_component(all[i].value), !occluded[i]);
     }
+    if (scene.media().is_empty()) return result;
+    MediaRay ray(scene.media());
+    Rgb left(0.0f);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (occluded[i]) continue;
+        ray.follow(rays[i], nullptr);
+        left += all[i].value * ray.through();
+    }
+    for (int c = 0; c < 3; ++c)
+        if (result.radiance[c] > 0.0f) result.through[c] = left[c] / result.radiance[c];
     return result;
 }
 
@@ -98,7 +110,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
     }
     const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
-    result.radiance = seen.radiance;
+    result.radiance = seen.radiance * seen.through;
     result.shadow_variance = seen.variance();
     return result;
 }
@@ -119,7 +131,7 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
     const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
     if (!(seen.share.all > 0.0f)) return {};
     const Rgb light = scene.world() * albedo;
-    return {light * seen.share.value(), error_of_albedo,
+    return {light * seen.through * seen.share.value(), error_of_albedo,
             sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance())};
 }
 

@@ -2,7 +2,8 @@
 //
 // They are kept in bricks of 8^3 cells, each with the 9^3 voxels at the cells' corners: a lookup reads one brick, no
 // lookup is above its brick's largest voxel, and all bricks of zeros are one. A voxel has 16 bits, in parts of the
-// largest of its brick.
+// largest of its brick. Bricks of 4^3 are as large in memory, and make rays through smoke a third slower and their
+// estimates half as noisy, where noise is small already; those of 16^3 take more memory.
 #pragma once
 
 #include <span>

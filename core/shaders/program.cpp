@@ -64,6 +64,12 @@ std::uint32_t Program::bump_neighbour(float filter_width) {
     return 3 + 2 * index;
 }
 
+std::vector<std::string_view> Program::ops() const {
+    std::vector<std::string_view> names;
+    for (const Step& step : steps_) names.push_back(step.kind->name);
+    return names;
+}
+
 void Program::make_image_levels() const {
     for (const Step& step : steps_)
         if (step.settings.image) step.settings.image->make_levels();

@@ -29,6 +29,8 @@ class Program {
 
     bool is_empty() const { return steps_.empty(); }
     std::uint32_t register_count() const { return register_count_; }
+    /// The names of the steps' kinds, in order.
+    std::vector<std::string_view> ops() const;
     /// Whether some step looks at a neighbour.
     bool needs_neighbours() const { return needs_neighbours_; }
 

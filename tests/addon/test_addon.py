@@ -82,7 +82,10 @@ def test_built_in_panels_are_opted_in(cases: Any) -> None:
         "RENDER_PT_output",
         "DATA_PT_lens",
         "EEVEE_MATERIAL_PT_surface",
+        "EEVEE_MATERIAL_PT_volume",
+        "EEVEE_WORLD_PT_volume",
+        "DATA_PT_volume_file",
         "WORLD_PT_context_world",
     }
     assert wanted <= opted_in
-    assert not {"DATA_PT_camera_dof", "RENDER_PT_freestyle", "EEVEE_WORLD_PT_volume"} & opted_in
+    assert not {"DATA_PT_camera_dof", "RENDER_PT_freestyle", "EEVEE_WORLD_PT_mist"} & opted_in

@@ -174,7 +174,6 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         "beckmann": ["Glossy BSDF"],
         "coated": ["Principled BSDF"] * 3,
         "fog": ["Principled Volume"],
-        "smoke": ["Material Output"],
         "leaf": ["Transparent BSDF"],
         "many_highlights": [None],
         "no_surface": [None],

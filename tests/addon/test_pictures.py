@@ -28,8 +28,9 @@ def folder(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def names(host: Host) -> dict[str, str]:
     """The passes' names in the host."""
     if host.version >= (5, 0):
-        return {"albedo": "Diffuse Color", "emission": "Emission"}
-    return {"albedo": "DiffCol", "emission": "Emit"}
+        volume = {"volume_direct": "Volume Direct", "volume_indirect": "Volume Indirect"}
+        return {"albedo": "Diffuse Color", "emission": "Emission"} | volume
+    return {"albedo": "DiffCol", "emission": "Emit", "volume_direct": "VolumeDir", "volume_indirect": "VolumeInd"}
 
 
 def read(path: Path) -> dict[str, np.ndarray]:
@@ -53,7 +54,7 @@ def first(folder: Path) -> dict[str, np.ndarray]:
 
 
 def test_passes_are_those_that_are_switched_on(first: dict[str, np.ndarray], names: dict[str, str]) -> None:
-    everything = {"Combined", "Depth", "Normal", "Position", names["albedo"], names["emission"], "Method", "Error"}
+    everything = {"Combined", "Depth", "Normal", "Position", "Method", "Error", *names.values()}
     assert set(first) == {f"first.{name}" for name in everything} | {"clay.Combined", f"clay.{names['albedo']}"}
 
 

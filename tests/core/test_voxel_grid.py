@@ -96,7 +96,7 @@ def rays(size: tuple[int, int, int], count: int) -> list[tuple[tuple[float, ...]
 
 @pytest.mark.parametrize("size", SIZES)
 def test_a_walk_covers_the_grid_once(size: tuple[int, int, int]) -> None:
-    """Of a grid without empty bricks: from where the ray enters the box, or starts, to where it leaves, or ends."""
+    """Without empty bricks: from where the ray enters the box, or starts, to where it leaves, or ends."""
     voxels, hits = grid(np.ones(size)), 0
     high = np.array(size[::-1], float)
     for origin, direction, near, far in rays(size, 400):

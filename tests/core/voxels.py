@@ -41,6 +41,6 @@ def interpolated(values: NDArray[np.floating], points: Floats) -> Floats:
 
 def integral(values: NDArray[np.floating], origin: Floats, direction: Floats, near: float, far: float) -> float:
     """Along a ray, by the midpoints of many parts."""
-    parts = 200_000
+    parts = 50_000
     t = near + (far - near) * (np.arange(parts) + 0.5) / parts
     return float(interpolated(values, origin + t[:, None] * direction).mean() * (far - near))

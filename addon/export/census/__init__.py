@@ -15,11 +15,12 @@ from .node import INPUTS, NODE
 from .object import OBJECT
 from .scene import SCENE
 from .table import LeftOut, Table, split_mark
+from .volume import VOLUME
 from .world import WORLD
 
 __all__ = ["INPUTS", "TABLES", "report_left_out"]
 
-TABLES: dict[str, Table] = OBJECT | LIGHT | WORLD | CAMERA | MATERIAL | NODE | SCENE
+TABLES: dict[str, Table] = OBJECT | LIGHT | WORLD | CAMERA | MATERIAL | NODE | SCENE | VOLUME
 
 
 def report_left_out(data: Any, owner: str, reporter: Reporter) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from .table import Table
+from .table import LeftOut, Table
 
 MATERIAL = {
     "Material": Table(
         used="node_tree use_nodes diffuse_color animation_data",
         parts="cycles",
-        # EEVEE's, the viewport's, and how displacement and volumes are done, which are reported by the nodes.
+        # EEVEE's, the viewport's, and how displacement is done, which is reported by the nodes.
         no_meaning="""
         blend_method shadow_method alpha_threshold show_transparent_back use_backface_culling use_screen_refraction
         use_sss_translucency refraction_depth preview_render_type use_preview_world pass_index texture_paint_images
@@ -20,9 +20,11 @@ MATERIAL = {
         """,
     ),
     "CyclesMaterialSettings": Table(
+        left_out=(LeftOut("volume_interpolation", "LINEAR", "its grids are interpolated linearly"),),
+        # How volumes are sampled and stepped through is Pivot's own.
         no_meaning="""
-        name sample_as_light use_transparent_shadow homogeneous_volume volume_sampling volume_interpolation
-        volume_step_rate displacement_method emission_sampling use_bump_map_correction
+        name sample_as_light use_transparent_shadow homogeneous_volume volume_sampling volume_step_rate
+        displacement_method emission_sampling use_bump_map_correction
         """,
     ),
 }

@@ -24,6 +24,8 @@ NODE = {
     "ShaderNodeBsdfGlossy": Table(used="distribution"),
     "ShaderNodeBsdfGlass": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
+    "ShaderNodeVolumeScatter": Table(used="phase"),
+    "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
     "ShaderNodeOutputWorld": Table(used="is_active_output target"),
     "ShaderNodeOutputLight": Table(used="is_active_output target"),
@@ -152,10 +154,25 @@ INPUTS = {
     "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
+    "ShaderNodeVolumeScatter": Inputs(
+        "Color, Density, Anisotropy, Backscatter, Alpha, Diameter",
+        no_meaning="Weight, IOR",  # of phase functions that are reported
+    ),
+    "ShaderNodeVolumeAbsorption": Inputs("Color, Density", no_meaning="Weight"),
+    "ShaderNodeVolumeCoefficients": Inputs(
+        "Absorption Coefficients, Scatter Coefficients, Emission Coefficients, Anisotropy, Backscatter, Alpha,Diameter",
+        no_meaning="Weight, IOR",
+    ),
+    "ShaderNodeVolumePrincipled": Inputs(
+        "Color, Color Attribute, Density, Density Attribute, Anisotropy, Absorption Color, Emission Strength,"
+        "Emission Color, Blackbody Intensity, Blackbody Tint, Temperature, Temperature Attribute",
+        no_meaning="Weight",
+    ),
+    "ShaderNodeVolumeInfo": Inputs(),
     "ShaderNodeMixShader": Inputs("Fac, Shader, Shader_001"),
     "ShaderNodeAddShader": Inputs("Shader, Shader_001"),
-    "ShaderNodeOutputMaterial": Inputs("Surface, Displacement", "Volume", no_meaning="Thickness"),
-    "ShaderNodeOutputWorld": Inputs("Surface", "Volume"),
+    "ShaderNodeOutputMaterial": Inputs("Surface, Displacement, Volume", no_meaning="Thickness"),
+    "ShaderNodeOutputWorld": Inputs("Surface, Volume"),
     "ShaderNodeOutputLight": Inputs("Surface"),
     "ShaderNodeRGB": Inputs(),
     "ShaderNodeValue": Inputs(),

@@ -12,7 +12,7 @@ def _is_light(blender_object: Any) -> bool:
 
 
 def _is_surface(blender_object: Any) -> bool:
-    return blender_object.type == "MESH"
+    return blender_object.type in {"MESH", "VOLUME"}
 
 
 def _without_strands(particle_systems: Any) -> bool:
@@ -50,8 +50,10 @@ OBJECT = {
         left_out=(
             LeftOut("visible_diffuse", True, "it lights diffuse surfaces too", when=_is_light),
             LeftOut("visible_glossy", True, "it lights glossy surfaces too", when=_is_light),
+            LeftOut("visible_volume_scatter", True, "it lights fog too", when=_is_light),
             LeftOut("visible_diffuse", True, "diffuse surfaces reflect it", when=_is_surface),
             LeftOut("visible_glossy", True, "glossy surfaces reflect it", when=_is_surface),
+            LeftOut("visible_volume_scatter", True, "light that fog scatters meets it", when=_is_surface),
             LeftOut("visible_shadow", True, "it casts shadows", when=_is_surface),
             LeftOut("is_holdout", False, "it is shown as it is", when=_is_surface),
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
@@ -69,7 +71,7 @@ OBJECT = {
         empty_display_size empty_image_offset image_user empty_image_depth show_empty_image_perspective
         show_empty_image_orthographic show_empty_image_only_axis_aligned use_empty_image_alpha empty_image_side
         add_rest_position_attribute pass_index color hide_viewport hide_select show_instancer_for_viewport
-        visible_transmission visible_volume_scatter display_type show_bounds display_bounds_type show_name show_axis
+        visible_transmission display_type show_bounds display_bounds_type show_name show_axis
         show_texture_space show_wire show_all_edges use_grease_pencil_lights show_transparent show_in_front pose_library
         use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z lightgroup
         animation_visualization motion_path hide_probe_volume hide_probe_sphere hide_probe_plane selection_sets

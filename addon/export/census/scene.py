@@ -95,8 +95,8 @@ SCENE = {
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),
-        # Quality and cost, where Pivot has settings of its own; what volumes, transparency and motion blur take, which
-        # are reported; bakes and debugging.
+        # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; what transparency and
+        # motion blur take, which are reported; bakes and debugging.
         no_meaning="""
         name device feature_set shading_system preview_pause use_denoising denoiser denoising_prefilter
         denoising_input_passes use_preview_denoising preview_denoiser preview_denoising_prefilter
@@ -126,7 +126,7 @@ SCENE = {
     "ViewLayer": Table(
         used="""
         name material_override world_override samples use use_solid use_sky layer_collection objects depsgraph
-        use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color use_pass_emit
+        use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color use_pass_emit
         """,
         parts="cycles",
         left_out=(
@@ -141,18 +141,19 @@ SCENE = {
             LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
             LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
         ),
-        # Hair, volumes and motion blur are reported where they are.
+        # Hair and motion blur are reported where they are.
         no_meaning="""
         pass_alpha_threshold eevee active_aov active_aov_index active_lightgroup active_lightgroup_index
-        pass_cryptomatte_depth use_pass_cryptomatte_accurate use_ao use_strand use_volumes use_motion_blur
+        pass_cryptomatte_depth use_pass_cryptomatte_accurate use_ao use_strand use_motion_blur
         active_layer_collection use_freestyle freestyle_settings has_export_collections use_grease_pencil
         use_pass_grease_pencil
         """,
     ),
     "CyclesRenderLayerSettings": Table(
+        used="use_pass_volume_direct use_pass_volume_indirect",
         left_out=(
             *_missing_passes("""
-                pass_debug_sample_count use_pass_volume_direct use_pass_volume_indirect use_pass_shadow_catcher
+                pass_debug_sample_count use_pass_shadow_catcher
                 denoising_store_passes pass_render_time@5.0 use_pass_volume_scatter@5.0 use_pass_volume_transmit@5.0
                 use_pass_volume_majorant@5.0 denoising_store_motion_passes@5.3
                 """),

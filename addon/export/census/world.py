@@ -20,7 +20,7 @@ WORLD = {
             LeftOut("max_bounces", 1024, "it lights every bounce"),
             LeftOut("use_shadows@5.2", True, "it casts them", what="a world without shadows is"),
         ),
-        # How it is sampled, and its volume, which is reported by its node.
+        # How it and its volume are sampled.
         no_meaning="""
         name is_caustics_light sampling_method sample_map_resolution homogeneous_volume volume_sampling
         volume_interpolation volume_step_size
@@ -31,7 +31,8 @@ WORLD = {
             LeftOut("camera", True, "the camera sees it", what="Camera Visibility is"),
             LeftOut("diffuse", True, "it lights diffuse surfaces too", what="Diffuse Visibility is"),
             LeftOut("glossy", True, "it lights glossy surfaces too", what="Glossy Visibility is"),
+            LeftOut("scatter", True, "it lights fog too", what="Volume Scatter Visibility is"),
         ),
-        no_meaning="name transmission shadow scatter",
+        no_meaning="name transmission shadow",
     ),
 }

@@ -87,10 +87,10 @@ def active_tree(data: bpy.types.ID) -> bpy.types.NodeTree | None:
     return data.node_tree if data.use_nodes else None
 
 
-def output_surface(tree: bpy.types.NodeTree) -> Socket | None:
-    """The Surface input of the tree's active output, as Cycles chooses it."""
+def output_socket(tree: bpy.types.NodeTree, name: str) -> Socket | None:
+    """An input of the tree's active output, "Surface" or "Volume", as Cycles chooses it."""
     output = tree.get_output_node("CYCLES")
-    return None if output is None else Socket(output.inputs["Surface"])
+    return None if output is None else Socket(output.inputs[name])
 
 
 def source(target: Socket) -> Socket | None:

@@ -47,9 +47,15 @@ def _particle_info(node: Node) -> Value:
     return zero if node.output in {"Age", "Lifetime", "Size"} else zero.widened()
 
 
+def _volume_info(node: Node) -> Value:
+    value = mesh_attribute(node, f"attribute:{node.output.lower()}")
+    return value[:3] if node.output == "Color" else value[4]
+
+
 ROWS: dict[str, Row] = {
     "ATTRIBUTE": _attribute,
     "VERTEX_COLOR": _color_attribute,
     "OBJECT_INFO": _object_info,
     "PARTICLE_INFO": _particle_info,
+    "VOLUME_INFO": _volume_info,
 }

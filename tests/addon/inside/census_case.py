@@ -22,6 +22,7 @@ KINDS = (
     "Mesh",
     "Material",
     "MaterialSlot",
+    "Volume",
     "Scene",
     "ViewLayer",
     "LayerCollection",
@@ -30,7 +31,7 @@ OTHER_NODES = {
     *("OUTPUT_MATERIAL", "OUTPUT_WORLD", "OUTPUT_LIGHT"),
     *("RGB", "VALUE", "TEX_IMAGE", "TEX_ENVIRONMENT"),
 }
-CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX")  # of them one at least changes the picture
+CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX", "CUBIC")  # of them one at least changes the picture
 
 
 def main(folder: Path) -> Any:
@@ -90,7 +91,7 @@ def _unnamed(tables: Any) -> list[str]:
 @functools.cache
 def _inputs() -> dict[str, list[str]]:
     """The inputs of each kind of node that the exporter knows, by their identifiers."""
-    exported = {"pivot.export.shader": "_SHADERS", "pivot.export.nodes": "ROWS"}
+    exported = {"pivot.export.shader": "_SHADERS", "pivot.export.volume": "_VOLUMES", "pivot.export.nodes": "ROWS"}
     known = {kind for module, table in exported.items() for kind in getattr(sys.modules[module], table)} | OTHER_NODES
     tree = bpy.data.node_groups.new("census", "ShaderNodeTree")
     inputs = {}
@@ -138,6 +139,7 @@ def _things() -> dict[str, Any]:
         "camera": parts.camera().data,
         "world": parts.world((1, 1, 1)),
         "material": quad.active_material,
+        "volume": bpy.data.volumes.new("volume"),
         "scene": scene,
         "layer": layer,
         "collection": layer.layer_collection.children["collection"],

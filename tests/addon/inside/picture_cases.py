@@ -71,6 +71,7 @@ def _scene() -> None:
     for name in PASSES:
         setattr(first, f"use_pass_{name}", True)
     first.pivot.use_pass_method = first.pivot.use_pass_error = True
+    first.cycles.use_pass_volume_direct = first.cycles.use_pass_volume_indirect = True
     clay = scene.view_layers.new("clay")
     clay.material_override = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.5, 0.5, 0.5, 1))[0]
     clay.use_pass_diffuse_color = True

@@ -41,6 +41,21 @@ class Shader:
 
 
 @dataclass
+class VoxelGrid:
+    values: Any
+    grid_from_object: Any
+
+
+@dataclass(kw_only=True)
+class Medium:
+    scattering: Any = ()
+    absorption: Any = (0, 0, 0)
+    emission: Any = (0, 0, 0)
+    density: VoxelGrid | None = None
+    emission_grid: VoxelGrid | None = None
+
+
+@dataclass
 class SphereLight:
     position: Any
     radius_m: float
@@ -102,6 +117,9 @@ class Recording:
     meshes: list[SimpleNamespace] = field(default_factory=list)
     instances: list[SimpleNamespace] = field(default_factory=list)
     materials: dict[str, Material | Shader] = field(default_factory=dict)
+    media: dict[str, Medium | None] = field(default_factory=dict)  # within each material
+    without_surface: set[str] = field(default_factory=set)  # materials
+    world_medium: Medium | None = None
     lights: dict[str, Any] = field(default_factory=dict)
     world: Any = None
     cameras: list[SimpleNamespace] = field(default_factory=list)
@@ -121,8 +139,10 @@ class Scene:
     def __init__(self) -> None:
         self.recording = recording = _recordings[-1]
         self.attributes: dict[str, int] = {}
-        for collection in (recording.meshes, recording.instances, recording.materials, recording.lights):
+        collections = (recording.meshes, recording.instances, recording.materials, recording.media, recording.lights)
+        for collection in (*collections, recording.without_surface):
             collection.clear()  # each view layer and frame has a scene of its own
+        recording.world_medium = None
 
     def add_mesh(
         self,
@@ -171,9 +191,14 @@ class Scene:
     def attribute_id(self, name: str) -> int:
         return self.attributes.setdefault(name, len(self.attributes))
 
-    def add_material(self, name: str, material: Material | Shader) -> int:
+    def add_material(
+        self, name: str, material: Material | Shader, medium: Medium | None = None, has_surface: bool = True
+    ) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
+        self.recording.media[name] = medium
+        if not has_surface:
+            self.recording.without_surface.add(name)
         return len(self.recording.materials) - 1
 
     def add_light(self, name: str, light: Any) -> int:
@@ -185,6 +210,9 @@ class Scene:
 
     def set_world_shader(self, shader: Shader) -> None:
         self.recording.world = shader
+
+    def set_world_medium(self, medium: Medium | None) -> None:
+        self.recording.world_medium = medium
 
     def set_camera(
         self,
@@ -235,7 +263,19 @@ def _in_place_of_the_core() -> Iterator[None]:
     core: Any = ModuleType("pivot_core")
     for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf"):
         setattr(core, name, getattr(real, name))
-    for part in (Material, Shader, SphereLight, SpotLight, SunLight, AreaLight, RenderSettings, Scene, Session):
+    for part in (
+        Material,
+        Shader,
+        VoxelGrid,
+        Medium,
+        SphereLight,
+        SpotLight,
+        SunLight,
+        AreaLight,
+        RenderSettings,
+        Scene,
+        Session,
+    ):
         setattr(core, part.__name__, part)
     engine: Any = sys.modules["pivot.engine"]
     reporter = engine.Reporter

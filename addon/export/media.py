@@ -1,0 +1,83 @@
+"""Volumes as the core's media: constants, and the grids that multiply them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..report import naming
+from .grids import Grids, Lattice
+from .nodes import Owner
+from .phase import pivot_of_mean_cosine
+from .volume import Volume
+from .voxels import evaluate
+
+Array = NDArray[np.float32]
+NO_GRIDS = Grids(lambda _: None, key=None)
+_ONE_COLOUR = 1e-3  # how far apart colours may be, relative to the strongest, to be one
+
+
+def core_medium(
+    core: Any, volume: Volume, owner: Owner, grids: Grids = NO_GRIDS, phase: str = "HENYEY_GREENSTEIN"
+) -> Any:
+    """A pivot_core.Medium, or None for a volume in which there is nothing. phase: as the Medium names it."""
+    lattice = grids.lattice(volume.grid_names)
+    with naming(owner.name, "give the colours and numbers of its volume finite values"):
+        *extinction, glow = _coefficients(volume, grids, lattice)
+        density, colours, is_one = _factored(extinction)
+        if not is_one:
+            owner.reporter.warn(f"{owner.name}: the colors of its volume vary over space, they are shown as their mean")
+        if not np.any(colours) and not glow.any():
+            return None
+        glows, is_pivot = lattice is not None and len(glow) > 1, phase == "PIVOT"
+        return core.Medium(
+            scattering=[
+                (tuple(colour), pivot_of_mean_cosine(lobe.mean_cosine) if is_pivot else lobe.mean_cosine, phase)
+                for lobe, colour in zip(volume.lobes, colours[:-1].tolist(), strict=True)
+                if any(colour)
+            ],
+            absorption=tuple(colours[-1].tolist()),
+            emission=(1.0, 1.0, 1.0) if glows else tuple(glow[0].tolist()),
+            density=None if density is None else _voxel_grid(core, density, lattice),
+            emission_grid=_voxel_grid(core, glow.clip(0), lattice) if glows else None,
+        )
+
+
+def _coefficients(volume: Volume, grids: Grids, lattice: Lattice | None) -> list[Array]:
+    """(1, 3), or (N, 3) where it varies over a lattice: sigma_s of each lobe, absorption and emission."""
+    values = [*(lobe.sigma_s for lobe in volume.lobes), volume.absorption, volume.emission]
+    names = [name for name in volume.grid_names if grids.has(name)]
+    tables = {name: grids.found[name].at(lattice) for name in names} if lattice else {}
+    count = lattice.count if lattice else 1
+    made = evaluate(volume.program, values, tables, count)
+    flat = [each[:1] if value.is_constant else each for value, each in zip(values, made, strict=True)]
+    return [each * np.float32(grids.density_scale) for each in flat]
+
+
+def _factored(parts: list[Array]) -> tuple[NDArray[np.float64] | None, NDArray[np.float64], bool]:
+    """What multiplies constant colours at each voxel, at most 1, and the colours (P, 3); and whether that is exact.
+
+    Without anything that varies there is no multiplier.
+    """
+    if all(len(part) == 1 for part in parts):
+        return None, np.concatenate(parts).astype(np.float64), True
+    totals = sum(part.sum(axis=1, dtype=np.float64) for part in parts)
+    most = totals.max()
+    if not most > 0:
+        return None, np.zeros((len(parts), 3)), True
+    density = totals / most
+    colours = (
+        np.stack([np.broadcast_to(part, (len(density), 3)).mean(axis=0, dtype=np.float64) for part in parts])
+        / density.mean()
+    )
+    apart = max(np.abs(part - density[:, None] * colour).max() for part, colour in zip(parts, colours, strict=True))
+    return density, colours, bool(apart <= _ONE_COLOUR * most)
+
+
+def _voxel_grid(core: Any, values: NDArray[Any], lattice: Lattice) -> Any:
+    """values: (N,) or (N, 3), x fastest."""
+    x, y, z = lattice.size
+    shaped = np.ascontiguousarray(values.reshape(z, y, x, *values.shape[1:]), np.float32)
+    return core.VoxelGrid(shaped, lattice.grid_from_object.astype(np.float32))

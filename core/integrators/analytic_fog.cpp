@@ -1,0 +1,157 @@
+#include "core/integrators/analytic_fog.h"
+
+#include "core/integrators/cap_light_shading.h"
+#include "core/integrators/scatter_table.h"
+
+namespace pivot {
+namespace {
+
+constexpr std::size_t nodes_of_panel = 8;
+constexpr std::size_t most_panels = 8;
+/// What is left to the closed forms over the lamp.
+constexpr float error_over_lamp = 0.005f;
+
+/// What a lamp scatters from one interval of a ray if nothing hides it.
+class LampInFog {
+   public:
+    LampInFog(const Light& lamp, const MediaRay& ray, std::size_t interval, MediaRay& to_lamp)
+        : lamp_(lamp), ray_(ray), interval_(interval), to_lamp_(to_lamp) {
+        ray.set_typical_mix(interval, typical_);
+    }
+    FogPart part() const { return {ray_, interval_, typical_}; }
+    const MediumMix& typical() const { return typical_; }
+
+    /// For each m.
+    std::array<Rgb, batch_size> at(const Batch& distance_m) {
+        const bool is_even = ray_.is_homogeneous(interval_);
+        Vec3b light = scattered_light(lamp_, part(), distance_m, true);
+        if (!is_even) light = light * ray_.relative_density(interval_, typical_, distance_m);
+        const Lanes t = store(distance_m), r = store(light.x), g = store(light.y), b = store(light.z);
+        std::array<Rgb, batch_size> result;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            result[i] = Rgb(r[i], g[i], b[i]);
+            if (!std::isfinite(t[i]) || !(max_component(abs(result[i])) > 0.0f)) {
+                result[i] = Rgb(0.0f);
+                continue;
+            }
+            result[i] *= ray_.transmittance(interval_, ray_.interval(interval_).near_m, t[i]) *
+                         transmittance_from(lamp_, ray_.position(t[i]), to_lamp_);
+        }
+        return result;
+    }
+
+   private:
+    const Light& lamp_;
+    const MediaRay& ray_;
+    std::size_t interval_;
+    MediaRay& to_lamp_;
+    MediumMix typical_;
+};
+
+/// By so many panels of Gauss and Legendre's nodes.
+Rgb integrate(LampInFog& lamp, const DistanceMap& map, std::size_t panels) {
+    Rgb sum(0.0f);
+    for (std::size_t first = 0; first < panels * nodes_of_panel; first += batch_size) {
+        const auto node = [&](std::size_t i) { return gauss_rule<nodes_of_panel>[(first + i) % nodes_of_panel]; };
+        const Batch t = map.distance_m(gather([&](std::size_t i) {
+            return (static_cast<float>((first + i) / nodes_of_panel) + node(i).x) / static_cast<float>(panels);
+        }));
+        const Lanes density = store(map.density(t));
+        const std::array<Rgb, batch_size> scattered = lamp.at(t);
+        for (std::size_t i = 0; i < batch_size; ++i)
+            if (density[i] > 0.0f) sum += scattered[i] * (node(i).weight / (density[i] * static_cast<float>(panels)));
+    }
+    return sum;
+}
+
+/// Which share of the light that comes to the ray is seen there.
+VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp, const MediaRay& ray,
+                        const ScatterTable& table, const FixedPoints& points) {
+    VisibleShare share;
+    const std::uint32_t all = points.count();
+    for (std::uint32_t begin = 0, end = points.first_count(); begin < all && (begin == 0 || share.is_mixed());
+         begin = end, end = all) {
+        std::vector<Ray> rays;
+        std::vector<float> weights;
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const Vec2f u = points.point(PointSet::fog_place, k, all);
+            const ScatterTable::Place place = table.sample(u.x);
+            const Vec3f position = ray.position(place.distance_m);
+            const FogLampSampler sampler(light, lamp.typical(), position, ray.ray().direction, LightSampling::joint);
+            const auto point = sampler.sample(points.point(PointSet::fog_lamp, k, all));
+            if (!point || !(point->pdf_omega > 0.0f)) continue;
+            const Rgb scattered = lamp.typical().scattered(dot(point->wi, ray.ray().direction)) * point->radiance;
+            rays.push_back({position, point->wi, 0.0f, point->distance_m * shadow_reach});
+            // Beside the table, which has the rest in it.
+            weights.push_back(sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f);
+        }
+        std::vector<std::uint8_t> hidden(rays.size());
+        scene.occluded(rays, hidden);
+        for (std::size_t i = 0; i < rays.size(); ++i) share.add(weights[i], !hidden[i]);
+    }
+    return share;
+}
+
+}  // namespace
+
+Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray) {
+    Ray to_lamp{.origin = position, .direction = Vec3f(0.0f)};
+    if (const auto* sun = std::get_if<SunLight>(&lamp)) {
+        to_lamp.direction = sun->cap.axis;
+    } else {
+        const auto* area = std::get_if<AreaLight>(&lamp);
+        const Vec3f d = (area ? area->center : sphere_of(lamp)->center) - position;
+        const float distance_m = length(d);
+        if (!(distance_m > 0.0f)) return Rgb(1.0f);
+        to_lamp.direction = d / distance_m;
+        // A sphere's face is so much nearer in the mean.
+        constexpr float mean_face = 2.0f / 3.0f;
+        const SphereLight* sphere = sphere_of(lamp);
+        const bool has_face = sphere && !sphere->is_facing_disk;
+        to_lamp.far_m = std::max(distance_m - (has_face ? mean_face * sphere->radius_m : 0.0f), 0.0f);
+    }
+    ray.follow(to_lamp, nullptr);
+    return ray.through();
+}
+
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+                          const MediaRay& ray) {
+    FogLight result;
+    result.emitted = ray.emitted();
+    const float budget = 0.01f * settings.error_budget_percent;
+    MediaRay to_lamp(scene.media());
+    for (std::size_t i = 0; i < ray.size(); ++i) {
+        for (const Light& light : scene.lamps()) {
+            LampInFog lamp(light, ray, i, to_lamp);
+            if (!lamp.typical().scatters()) break;
+            const auto lit = lit_part(light, lamp.part());
+            if (!lit) continue;
+            const DistanceMap map = distance_map(light, lamp.part(), lit->first, lit->second);
+            Rgb whole = integrate(lamp, map, 1);
+            float error = 1.0f;
+            for (std::size_t panels = 2; panels <= most_panels && error > 0.5f * budget; panels *= 2) {
+                const Rgb finer = integrate(lamp, map, panels);
+                const float size = mean_component(abs(finer));
+                error = size > 0.0f ? mean_component(abs(finer - whole)) / size : 0.0f;
+                whole = finer;
+            }
+            whole *= ray.before(i);
+            if (!(max_component(abs(whole)) > 0.0f)) continue;
+            VisibleShare share;
+            if (settings.occlusion == Occlusion::ray_traced) {
+                const ScatterTable table(map, 2 * nodes_of_panel, [&](const Batch& t) {
+                    const std::array<Rgb, batch_size> scattered = lamp.at(t);
+                    return gather([&](std::size_t k) { return mean_component(abs(scattered[k])); });
+                });
+                if (table.sum() > 0.0f) share = seen_share(scene, light, lamp, ray, table, points);
+            }
+            const float size = mean_component(abs(whole)) * share.value();
+            result.scattered += whole * share.value();
+            result.error += size * (error + error_over_lamp);
+            result.shadow_variance += sqr(mean_component(abs(whole))) * share.variance();
+        }
+    }
+    return result;
+}
+
+}  // namespace pivot
