@@ -30,6 +30,7 @@ import sys
 from pathlib import Path
 
 import fog_scenes as scenes
+import fog_smoke
 import indirect
 import monte_carlo_table as table
 from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot
@@ -38,7 +39,7 @@ OUTPUT = Path(__file__).resolve().parents[2] / "build" / "fog"
 WORKER = "fog_blender.py"
 SAMPLINGS = {"MIS": "MULTIPLE_IMPORTANCE", "equiangular": "EQUIANGULAR", "distance": "DISTANCE"}
 UNBIASED = (5, 0)  # the first Blender that tracks null collisions
-BUILDERS = (Path(scenes.__file__), Path(scenes.parts.__file__))
+BUILDERS = tuple(Path(module.__file__ or "") for module in (scenes, scenes.parts, fog_smoke))
 
 
 def pivot_renderers(blender: str, scene: scenes.FogScene) -> list[Renderer]:
@@ -84,6 +85,7 @@ def main() -> None:
     parser.add_argument("--reference-samples", type=int, default=512)
     parser.add_argument("--only", nargs="+", help="measure these renderers; of others, the last pictures")
     arguments = parser.parse_args()
+    fog_smoke.write(scenes.SMOKE)
     gallery = Gallery(OUTPUT, scene_key, dict.fromkeys(("pivot", "cycles"), arguments.reference_samples))
     blenders = find_blenders(arguments.blender)
     with_pivot = has_pivot(arguments.blender[0])

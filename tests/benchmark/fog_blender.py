@@ -13,6 +13,7 @@ import bpy
 
 # isort: split
 import fog_scenes as scenes
+import fog_smoke
 import monte_carlo_renderers as renderers
 import monte_carlo_worker as worker
 import shafts_scene
@@ -29,6 +30,7 @@ class Cycles(renderers.Cycles):
 
 
 if __name__ == "__main__":
+    fog_smoke.find_openvdb()
     builders = {name: partial(scenes.build, name) for name in scenes.SCENES}
     builders |= {name: partial(shafts_scene.build, percentage) for name, percentage in shafts_scene.SIZES.items()}
     worker.main({"cycles": Cycles, "pivot": renderers.Pivot}, builders)

@@ -9,50 +9,43 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import bpy
 
 # isort: split
 import indirect_scenes as parts
-from indirect_scenes import Triple
+from mathutils import Matrix
 
 WIDTH, HEIGHT = 320, 180
+SMOKE = Path(__file__).resolve().parents[2] / "build" / "fog" / "smoke.vdb"  # by fog_smoke.py
 
 
 # -- media
-def _scattering(name: str, anisotropy: float, color: Triple, density: float) -> tuple[bpy.types.Material, Any]:
-    """A material without a surface, and its Volume Scatter node."""
-    material = bpy.data.materials.new(name)
+def fog(anisotropy: float, density: float) -> bpy.types.Material:
+    """Of white particles; density: 1/m."""
+    material = bpy.data.materials.new("fog")
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
     node, output = tree.nodes.new("ShaderNodeVolumeScatter"), tree.nodes.new("ShaderNodeOutputMaterial")
-    for key, value in {"Color": (*color, 1.0), "Density": density, "Anisotropy": anisotropy}.items():
+    for key, value in {"Color": (1.0, 1.0, 1.0, 1.0), "Density": density, "Anisotropy": anisotropy}.items():
         node.inputs[key].default_value = value
     tree.links.new(node.outputs[0], output.inputs["Volume"])
-    return material, node
-
-
-def fog(anisotropy: float, density: float, color: Triple = (1.0, 1.0, 1.0)) -> bpy.types.Material:
-    """density: 1/m, of which color is scattered and the rest passes: Volume Scatter absorbs nothing."""
-    return _scattering("fog", anisotropy, color, density)[0]
+    return material
 
 
 def smoke(anisotropy: float, density: float) -> bpy.types.Material:
-    """Puffs of up to density, 1/m: a noise of the object's own coordinates through a ramp."""
-    material, scatter = _scattering("smoke", anisotropy, (0.85, 0.85, 0.85), density)
+    """Of what a volume's grid holds, times density."""
+    material = bpy.data.materials.new("smoke")
+    material.use_nodes = True
     tree = material.node_tree
-    place, noise = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeTexNoise")
-    ramp, scale = tree.nodes.new("ShaderNodeValToRGB"), tree.nodes.new("ShaderNodeMath")
-    noise.inputs["Scale"].default_value, noise.inputs["Detail"].default_value = 1.3, 2.0
-    for stop, (position, value) in zip(ramp.color_ramp.elements, ((0.45, 0.0), (0.65, 1.0)), strict=True):
-        stop.position, stop.color = position, (value, value, value, 1.0)
-    scale.operation, scale.inputs[1].default_value = "MULTIPLY", density
-    tree.links.new(place.outputs["Object"], noise.inputs["Vector"])
-    tree.links.new(noise.outputs[0], ramp.inputs[0])
-    tree.links.new(ramp.outputs[0], scale.inputs[0])
-    tree.links.new(scale.outputs[0], scatter.inputs["Density"])
+    tree.nodes.clear()
+    node, output = tree.nodes.new("ShaderNodeVolumePrincipled"), tree.nodes.new("ShaderNodeOutputMaterial")
+    for key, value in {"Color": (0.85, 0.85, 0.85, 1.0), "Density": density, "Anisotropy": anisotropy}.items():
+        node.inputs[key].default_value = value
+    tree.links.new(node.outputs[0], output.inputs["Volume"])
     return material
 
 
@@ -116,7 +109,10 @@ def four_lights(anisotropy: float) -> None:
 def puffs(anisotropy: float) -> None:
     """Heterogeneous smoke over a floor, under a lamp."""
     parts.box("floor", (-4.0, -4.0, -0.3), (4.0, 4.0, 0.0), parts.principled("floor", (0.3, 0.3, 0.3), Roughness=0.6))
-    parts.box("smoke", (-1.6, -1.2, 0.1), (1.6, 1.2, 2.1), smoke(anisotropy, 4.0))
+    data = bpy.data.volumes.new("smoke")
+    data.filepath = str(SMOKE)
+    data.materials.append(smoke(anisotropy, 6.0))
+    parts.link("smoke", data, Matrix.Translation((0.0, 0.0, 1.2)))
     settings = {"energy": 250.0, "shadow_soft_size": 0.15, "use_soft_falloff": False}
     parts.light("lamp", "POINT", (1.5, 0.7, 2.9), (0.0, 0.0, 0.0), (1.0, 0.9, 0.8), **settings)
     parts.world((0.02, 0.025, 0.03))

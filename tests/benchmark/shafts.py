@@ -55,7 +55,7 @@ def main() -> None:
     other_image, other_cpu_s = gallery.load(other)
     for label, samples, seconds in ((*picture[1:3], cpu_s), (*other[1:3], other_cpu_s)):
         print(f"{label}: {samples} samples, {seconds:.0f} s of CPU")
-    labels = {"Pivot": image, theirs.label.capitalize(): other_image}
+    labels = {"Pivot": image, theirs.label.replace("cycles", "Cycles"): other_image}
     table.write_picture(HERE / "shafts.png", list(labels), {"": labels}, (scene.WIDTH, scene.HEIGHT))
 
 
