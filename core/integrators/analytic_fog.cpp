@@ -80,7 +80,7 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
             const FogLampSampler sampler(light, lamp.typical(), position, ray.ray().direction, LightSampling::joint);
             const auto point = sampler.sample(points.point(PointSet::fog_lamp, k, all));
             if (!point || !(point->pdf_omega > 0.0f)) continue;
-            const Rgb scattered = lamp.typical().scattered(dot(point->wi, ray.ray().direction)) * point->radiance;
+            const Rgb scattered = lamp.typical().scattered(ray.ray().direction, point->wi) * point->radiance;
             rays.push_back({position, point->wi, 0.0f, point->distance_m * shadow_reach});
             // Beside the table, which has the rest in it.
             weights.push_back(sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f);

@@ -32,13 +32,18 @@ std::size_t node_count(const MediumMix& mix) {
     return sharpest > 0.95f ? 32 : sharpest > 0.85f ? 16 : 8;
 }
 
+/// So many places of a camera's ray look for lamps, or a few more.
+constexpr float places_of_camera_ray = 8.0f;
+
+float wrap(float x) { return std::min(x - std::floor(x), 1.0f - 0x1p-24f); }
+
 /// About a direction of travel, by the phase function's cosine.
 Vec3f around(const Vec3f& direction, const Vec2f& cos_sin, float u) {
     const float phi = 2.0f * pi<float> * u;
     return frame_from_z(direction).to_world({cos_sin.y * std::cos(phi), cos_sin.y * std::sin(phi), cos_sin.x});
 }
 
-/// Radiance that a ray's vertex adds is not certain to be finite where densities underflow.
+/// Densities may underflow.
 bool is_usable(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
 
 }  // namespace
@@ -103,48 +108,57 @@ void Fog::add_candidates(const Light& lamp, const Path& path) {
     }
 }
 
-void Fog::sample_candidate(std::uint32_t bounce, const Path& path, float weight, std::uint32_t place) {
-    if (candidates_.empty()) return;
+void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t bounce, const Path& path, float weight,
+                            std::uint32_t place, std::uint32_t count) {
+    float total = 0.0f;
+    for (const Candidate& candidate : candidates) total += candidate.table.sum();
     const Sampler& sampler = work_.samplers[path.sample];
     const std::uint32_t dimension = FogDimensions(bounce).lamp(place);
-    const Vec2f u = sampler.point(dimension);
-    float total = 0.0f;
-    for (const Candidate& candidate : candidates_) total += candidate.table.sum();
-    float left = u.x * total;
-    std::size_t index = 0;
-    while (index + 1 < candidates_.size() && left >= candidates_[index].table.sum())
-        left -= candidates_[index++].table.sum();
-    const Candidate& chosen = candidates_[index];
-    const float within = std::min(left / chosen.table.sum(), 1.0f - 0x1p-24f);
-    const ScatterTable::Place at = chosen.table.sample(within);
-    if (!is_usable(at.pdf_m) || !std::isfinite(at.distance_m)) return;
-    ray_.set_mix_at(chosen.interval, at.distance_m, mix_);
-    if (!mix_.scatters()) return;
-    const Vec3f position = ray_.position(at.distance_m), direction = ray_.ray().direction;
-    const Rgb worth = path.throughput * ray_.before(chosen.interval) *
-                      ray_.transmittance(chosen.interval, ray_.interval(chosen.interval).near_m, at.distance_m) *
-                      (weight * total / (chosen.table.sum() * at.pdf_m));
-    const FogLampSampler lamp(*chosen.lamp, mix_, position, direction, work_.settings.light_sampling);
+    const Vec2f u = sampler.point(dimension), u_light = sampler.point(dimension + 1);
+    // Evenly spread along the ray, so that what hides a part of it hides the same part of them.
+    std::size_t mixed = ray_.size();  // the interval that mix_ is of
+    for (std::uint32_t k = 0; k < count; ++k) {
+        float left = (static_cast<float>(k) + u.x) / static_cast<float>(count) * total;
+        std::size_t chosen = 0;
+        while (chosen + 1 < candidates.size() && left >= candidates[chosen].table.sum())
+            left -= candidates[chosen++].table.sum();
+        const float sum = candidates[chosen].table.sum();
+        const ScatterTable::Place at = candidates[chosen].table.sample(std::min(left / sum, 1.0f - 0x1p-24f));
+        if (!is_usable(at.pdf_m) || !std::isfinite(at.distance_m)) continue;
+        const Vec2f turned(wrap(u_light.x + 0.7548777f * static_cast<float>(k)),
+                           wrap(u_light.y + 0.5698403f * static_cast<float>(k)));  // R2's ratios
+        const float share = weight * total / (sum * at.pdf_m * static_cast<float>(count));
+        if (candidates[chosen].interval != mixed || !ray_.is_homogeneous())
+            ray_.set_mix_at(mixed = candidates[chosen].interval, at.distance_m, mix_);
+        if (mix_.scatters()) sample_place(candidates[chosen], at.distance_m, share, turned, bounce, path, dimension);
+    }
+}
+
+void Fog::sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,
+                       const Path& path, std::uint32_t dimension) {
+    const std::size_t i = candidate.interval;
+    const Vec3f position = ray_.position(distance_m), direction = ray_.ray().direction;
+    const Rgb worth =
+        path.throughput * ray_.before(i) * ray_.transmittance(i, ray_.interval(i).near_m, distance_m) * weight;
+    const FogLampSampler lamp(*candidate.lamp, mix_, position, direction, work_.settings.light_sampling);
     const auto add = [&](const LightPoint& point, float pdf) {
         if (!is_usable(pdf)) return;
-        const Rgb light = worth * mix_.scattered(dot(point.wi, direction)) * point.radiance / pdf;
         shadows_.push_back({.ray = {.origin = position,
                                     .direction = point.wi,
                                     .near_m = 0.0f,
                                     .far_m = point.distance_m * shadow_reach},
-                            .light = light,
+                            .light = worth * mix_.scattered(direction, point.wi) * point.radiance / pdf,
                             .bounce = bounce,
                             .sample = path.sample,
                             .dimension = dimension});
     };
     const bool shares = lamp.shares_with_phase();
-    const auto phase_pdf = [&](const Vec3f& wi) { return mix_.pdf_omega(dot(wi, direction)); };
-    if (const auto point = lamp.sample(sampler.point(dimension + 1)))
-        add(*point, point->pdf_omega + (shares ? phase_pdf(point->wi) : 0.0f));
+    const auto phase_pdf = [&](const Vec3f& wi) { return mix_.pdf_omega(direction, wi); };
+    if (const auto point = lamp.sample(u)) add(*point, point->pdf_omega + (shares ? phase_pdf(point->wi) : 0.0f));
     if (!shares) return;
-    const Vec2f u_phase = sampler.point(dimension + 2);
-    const Vec3f wi = around(direction, sample_cosine(mix_.choose(u.y).phase, u_phase.x), u_phase.y);
-    if (const auto point = intersect_light(*chosen.lamp, position, wi))
+    const Vec2f u_phase = work_.samplers[path.sample].point(dimension + 2);
+    const Vec3f wi = around(direction, sample_cosine(mix_.choose(u.y).phase, wrap(u_phase.x + u.x)), u_phase.y);
+    if (const auto point = intersect_light(*candidate.lamp, position, wi))
         add(*point, lamp.pdf_omega(*point) + phase_pdf(wi));
 }
 
@@ -167,26 +181,32 @@ void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
     const std::span<const Light> lamps = work_.scene.lamps();
     candidates_.clear();
     if (lamps.size() <= max_lamp_samples) {
-        // A camera's ray samples each of few lamps, later ones one by what it scatters.
-        for (std::uint32_t i = 0; i < lamps.size(); ++i) {
-            add_candidates(lamps[i], path);
-            if (bounce > 0) continue;
-            sample_candidate(bounce, path, 1.0f, i);
-            candidates_.clear();
+        for (const Light& lamp : lamps) add_candidates(lamp, path);
+        if (candidates_.empty()) return;
+        if (bounce > 0) return sample_candidates(candidates_, bounce, path, 1.0f, 0, 1);
+        // A camera's ray samples each lamp, by what it scatters of it.
+        float total = 0.0f;
+        for (const Candidate& candidate : candidates_) total += candidate.table.sum();
+        for (std::size_t first = 0, end; first < candidates_.size(); first = end) {
+            float sum = 0.0f;
+            for (end = first; end < candidates_.size() && candidates_[end].lamp == candidates_[first].lamp; ++end)
+                sum += candidates_[end].table.sum();
+            const auto count = static_cast<std::uint32_t>(std::ceil(places_of_camera_ray * sum / total));
+            const auto lamp = static_cast<std::uint32_t>(candidates_[first].lamp - lamps.data());
+            sample_candidates(std::span(candidates_).subspan(first, end - first), bounce, path, 1.0f, lamp, count);
         }
-        if (bounce > 0) sample_candidate(bounce, path, 1.0f, 0);
         return;
     }
     const std::uint32_t count = bounce == 0 ? max_lamp_samples : 1;
     const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce).lamp_choice());
     for (std::uint32_t k = 0; k < count; ++k) {
-        const float turned = u.y + 0.618034f * static_cast<float>(k);
-        const auto [lamp, probability] =
-            choose_lamp((static_cast<float>(k) + u.x) / static_cast<float>(count), turned - std::floor(turned));
+        const auto [lamp, probability] = choose_lamp((static_cast<float>(k) + u.x) / static_cast<float>(count),
+                                                     wrap(u.y + 0.618034f * static_cast<float>(k)));
         if (!(probability > 0.0f)) continue;
         candidates_.clear();
         add_candidates(lamps[lamp], path);
-        sample_candidate(bounce, path, 1.0f / (probability * static_cast<float>(count)), k);
+        if (candidates_.empty()) continue;
+        sample_candidates(candidates_, bounce, path, 1.0f / (probability * static_cast<float>(count)), k, 1);
     }
 }
 
@@ -271,7 +291,7 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     const Sampler& sampler = work_.samplers[vertex.sample];
     const FogDimensions dimensions(bounce);
     const auto add = [&](const Vec3f& wi, float reach_m, const Rgb& radiance, float pdf, std::uint32_t dimension) {
-        const float phase = eval(vertex.phase, dot(wi, vertex.direction));
+        const float phase = eval(vertex.phase, vertex.direction, wi);
         const float weight = strategy == LightSampling::light ? 1.0f : balance(pdf, phase);
         if (!is_usable(pdf)) return;
         shadows_.push_back({.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m},
@@ -338,7 +358,7 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
         const Vec2f u = work_.samplers[vertex.sample].point(FogDimensions(bounce).direction());
         const Vec2f cos_sin = sample_cosine(vertex.phase, u.x);
         rays.push_back({.origin = vertex.position, .direction = around(vertex.direction, cos_sin, u.y)});
-        pdf_omega.push_back(eval(vertex.phase, cos_sin.x));
+        pdf_omega.push_back(eval(vertex.phase, vertex.direction, rays.back().direction));
     }
     std::vector<std::optional<RayHit>> hits(rays.size());
     work_.scene.intersect(rays, visible_to_light, hits);

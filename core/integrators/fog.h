@@ -57,7 +57,11 @@ class Fog {
 
     void sample_lamps(std::uint32_t bounce, const Path& path);
     void add_candidates(const Light& lamp, const Path& path);
-    void sample_candidate(std::uint32_t bounce, const Path& path, float weight, std::uint32_t place);
+    void sample_candidates(std::span<const Candidate> candidates, std::uint32_t bounce, const Path& path, float weight,
+                           std::uint32_t place, std::uint32_t count);
+    /// At a place of the ray that mix_ is of.
+    void sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,
+                      const Path& path, std::uint32_t dimension);
     std::pair<std::size_t, float> choose_lamp(float u, float u_place);
     Rgb sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream);
     Rgb sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided);

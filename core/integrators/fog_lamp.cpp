@@ -86,10 +86,10 @@ Batch mean_falloff(const SpotLight& spot, const FogPart& part, const Cap<Batch>&
             const Batch versine = cap.versine * Batch(dot(xy, xy));
             const Batch radius = safe_sqrt(cap.versine * (Batch(2.0f) - versine));
             const Vec3b wi = frame.to_world({Batch(xy.x) * radius, Batch(xy.y) * radius, Batch(1.0f) - versine});
-            const Batch mu = dot(wi, broadcast(part.ray.ray().direction));
+            const Vec3b direction = broadcast(part.ray.ray().direction);
             Batch weight(0.0f);
             for (const ScatterLobe& lobe : part.mix.lobes)
-                weight += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, mu);
+                weight += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, direction, wi);
             sum += weight * falloff(wi);
             weights += weight;
         }
@@ -125,13 +125,13 @@ Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& pos
                     v = static_cast<float>(i / cells.columns) * height;
         const SeenCell<Batch> seen =
             see_cell<Batch>(light, position, {Batch(u), Batch(v)}, {Batch(u + width), Batch(v + height)});
-        const Batch mu = dot(seen.wi, broadcast(part.ray.ray().direction));
+        const Vec3b direction = broadcast(part.ray.ray().direction);
         // As a cap of that solid angle a cell is as wide as it is, which matters to a sharp phase function.
         if (precisely)
             sum += scattered_of_cap(part, {seen.wi, seen.solid_angle * Batch(0.5f / pi<float>)}, true);
         else
             for (const ScatterLobe& lobe : part.mix.lobes)
-                sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, mu) * seen.solid_angle);
+                sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, direction, seen.wi) * seen.solid_angle);
     }
     return sum * broadcast(light.radiance);
 }
@@ -211,7 +211,9 @@ void FogLampSampler::weigh_lobes(const MediumMix& mix) {
     for (const ScatterLobe& lobe : mix.lobes) {
         const PivotPhase<float> proxy = proxy_of(lobe.phase);
         proxies_[count_] = proxy;
-        probability_[count_++] = MediumMix::weight(lobe) * integrate(lobe.phase, proxy, direction_, *cap_);
+        const bool is_alone = mix.lobes.size() == 1;
+        probability_[count_++] =
+            is_alone ? 1.0f : MediumMix::weight(lobe) * integrate(lobe.phase, proxy, direction_, *cap_);
     }
     normalize_probabilities();
 }
@@ -228,9 +230,9 @@ void FogLampSampler::weigh_cells(const AreaLight& light, const MediumMix& mix) {
         const auto row = [&](std::size_t i) { return static_cast<float>((count_ + i) / cells.columns); };
         const Batch u = gather(column) * Batch(width), v = gather(row) * Batch(height);
         const SeenCell<Batch> seen = see_cell<Batch>(light, position, {u, v}, {u + Batch(width), v + Batch(height)});
-        const Batch mu = dot(seen.wi, direction);
         Batch scattered(0.0f);
-        for (const ScatterLobe& lobe : mix.lobes) scattered += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, mu);
+        for (const ScatterLobe& lobe : mix.lobes)
+            scattered += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, direction, seen.wi);
         (scattered * seen.solid_angle).store_unaligned(&probability_[count_]);
     }
     for (std::size_t i = 0; i < count_; ++i) total += probability_[i];

@@ -21,7 +21,8 @@ void choose_lights(const LightTree& tree, const VertexBatch& vertices, const Bat
 /// With which probability each choice takes this light.
 float choice_probability(const LightTree& tree, const Vertex& vertex, std::size_t light);
 
-/// The same for a place that scatters light from all around alike: a light and its probability, 0 where none reaches it.
+/// The same for a place that scatters light from all around alike: a light and its probability, 0 where none reaches
+/// it.
 std::pair<std::size_t, float> choose_light(const LightTree& tree, const Vec3f& position, float u);
 float choice_probability(const LightTree& tree, const Vec3f& position, std::size_t light);
 

@@ -7,8 +7,6 @@ namespace {
 
 constexpr std::uint32_t typical_points = 8, emission_points = 4;
 
-bool varies(const Medium& medium) { return !medium.is_homogeneous(); }
-
 /// The mean along an emitting medium of sigma_t: of exp(-sigma x) over [0, length], times the length.
 float emission_length_m(float sigma, float length_m) {
     const float depth = sigma * length_m;
@@ -18,10 +16,10 @@ float emission_length_m(float sigma, float length_m) {
 }  // namespace
 
 Rgb transmittance_over(const Rgb& sigma_t, float length_m) {
-    Rgb left(1.0f);
-    for (int c = 0; c < 3; ++c)
-        if (sigma_t[c] > 0.0f) left[c] = std::exp(-sigma_t[c] * length_m);
-    return left;
+    const auto left = [&](float sigma) { return sigma > 0.0f ? std::exp(-sigma * length_m) : 1.0f; };
+    const float red = left(sigma_t.x);
+    if (sigma_t.x == sigma_t.y && sigma_t.x == sigma_t.z) return Rgb(red);
+    return {red, left(sigma_t.y), left(sigma_t.z)};
 }
 
 Vec3b transmittance_over(const Rgb& sigma_t, const Batch& length_m) {
@@ -40,12 +38,13 @@ void MediaRay::follow(const Ray& ray, RandomStream* stream) {
     is_homogeneous_ = true;
     for (std::size_t i = 0; i < size(); ++i) {
         for (const std::uint32_t id : ids(i)) {
-            const Medium& medium = *media_.at(id).medium;
-            scatters_ = scatters_ || max_component(medium.sigma_s()) > 0.0f;
-            is_homogeneous_ = is_homogeneous_ && medium.is_homogeneous();
+            const PlacedMedium& placed = media_.at(id);
+            scatters_ = scatters_ || max_component(placed.sigma_s) > 0.0f;
+            is_homogeneous_ = is_homogeneous_ && !placed.varies();
         }
-        before_.push_back(before_.back() * transmittance(i, interval(i).near_m, interval(i).far_m));
     }
+    for (std::size_t i = 0; i < size(); ++i)
+        before_.push_back(before_.back() * transmittance(i, interval(i).near_m, interval(i).far_m));
 }
 
 Rgb MediaRay::emitted() const {
@@ -55,7 +54,7 @@ Rgb MediaRay::emitted() const {
 }
 
 bool MediaRay::is_homogeneous(std::size_t i) const {
-    return std::ranges::none_of(ids(i), [&](std::uint32_t id) { return varies(*media_.at(id).medium); });
+    return std::ranges::none_of(ids(i), [&](std::uint32_t id) { return media_.at(id).varies(); });
 }
 
 GridRay MediaRay::grid_ray(const PlacedMedium& placed, const VoxelGrid& grid, float near_m, float far_m) const {
@@ -73,15 +72,18 @@ void MediaRay::set_even_mix(std::size_t i, MediumMix& mix) const {
 }
 
 Rgb MediaRay::transmittance(std::size_t i, float near_m, float far_m) const {
-    set_even_mix(i, mix_);
-    Rgb left = transmittance_over(mix_.sigma_t, far_m - near_m);
+    Rgb even(0.0f);
+    for (const std::uint32_t id : ids(i))
+        if (!media_.at(id).medium->density) even += media_.at(id).sigma_t;
+    Rgb left = transmittance_over(even, far_m - near_m);
+    if (is_homogeneous_) return left;
     for (const std::uint32_t id : ids(i)) {
         const PlacedMedium& placed = media_.at(id);
         const Medium& medium = *placed.medium;
         if (!medium.density) continue;
         const GridRay along = grid_ray(placed, *medium.density, near_m, far_m);
-        left *= stream_ ? pivot::transmittance(*medium.density, along, medium.sigma_t(), *stream_)
-                        : transmittance_over(medium.sigma_t(), density_integral(*medium.density, along));
+        left *= stream_ ? pivot::transmittance(*medium.density, along, placed.sigma_t, *stream_)
+                        : transmittance_over(placed.sigma_t, density_integral(*medium.density, along));
     }
     return left;
 }
@@ -136,7 +138,7 @@ Batch MediaRay::relative_density(std::size_t i, const MediumMix& typical, const 
     Batch sum(0.0f);
     for (const std::uint32_t id : ids(i)) {
         const PlacedMedium& placed = media_.at(id);
-        const float weight = mean_component(placed.medium->sigma_s());
+        const float weight = mean_component(placed.sigma_s);
         Batch density(1.0f);
         if (const VoxelGrid* grid = placed.medium->density.get()) {
             const GridRay along = grid_ray(placed, *grid, 0.0f, 0.0f);
@@ -173,8 +175,8 @@ std::optional<MediaRay::Collided> MediaRay::collide(Rgb& throughput, RandomStrea
             const PlacedMedium& placed = media_.at(id);
             const VoxelGrid* grid = placed.medium->density.get();
             if (!grid) continue;
-            const Collision found = sample_collision(*grid, grid_ray(placed, *grid, part.near_m, far_m),
-                                                     placed.medium->sigma_t(), throughput, stream);
+            const Collision found = sample_collision(*grid, grid_ray(placed, *grid, part.near_m, far_m), placed.sigma_t,
+                                                     throughput, stream);
             throughput = found.throughput;
             if (!found.distance_m) continue;
             collides = with_grid = true;

@@ -16,13 +16,18 @@ struct Phase {
 /// |g| is at most this: nearer to 1 a phase function is a mirror, and its peak infinite.
 inline constexpr float max_abs_phase_g = 1.0f - 1e-4f;
 
+/// Towards wi, of light that a ray along `direction` finds: both unit. By their distance, which keeps its bits where a
+/// sharp phase function has its peak.
 template <class T>
-T eval(const Phase& phase, T mu) {
+T eval(const Phase& phase, const Vec3<T>& direction, const Vec3<T>& wi) {
+    const float g = std::abs(phase.g);
+    const T distance2 = length_squared(phase.g < 0.0f ? wi + direction : wi - direction);
+    const T q = T(sqr(1.0f - g)) + T(g) * distance2, of_all = T((1.0f - g) * (1.0f + g));
     switch (phase.kind) {
         case PhaseKind::henyey_greenstein:
-            return eval(HenyeyGreenstein<T>{T(phase.g)}, mu);
+            return T(0.25f) / pi<T> * of_all / (q * sqrt(q));
         case PhaseKind::pivot:
-            return eval(PivotPhase<T>{T(phase.g)}, mu);
+            return T(0.25f) / pi<T> * sqr(of_all / q);
     }
     return T(0);
 }
@@ -54,8 +59,8 @@ T integrate(const Phase& phase, const PivotPhase<float>& proxy, const Vec3<T>& d
     const PivotPhase<T> pivoted{T(proxy.g_p)};
     const T whole = integrate(pivoted, direction, light);
     if (phase.kind == PhaseKind::pivot) return whole;
-    const T mu = min(max(dot(light.axis, direction), T(-1)), T(1));
-    const T scaled = min(whole * eval(phase, mu) / max(eval(pivoted, mu), tiny<T>), T(1));
+    const T of_proxy = eval(Phase{PhaseKind::pivot, proxy.g_p}, direction, light.axis);
+    const T scaled = min(whole * eval(phase, direction, light.axis) / max(of_proxy, tiny<T>), T(1));
     return select(light.versine > T(1.99f), T(1), scaled);
 }
 

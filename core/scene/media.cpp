@@ -7,9 +7,9 @@ namespace pivot {
 namespace {
 
 /// The box around a mesh where it stands.
-PlacedMedium place(std::shared_ptr<const Medium> medium, const Mesh& mesh, const Transform& world_from_object) {
+PlacedMedium place(const std::shared_ptr<const Medium>& medium, const Mesh& mesh, const Transform& world_from_object) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    PlacedMedium placed{std::move(medium), {}, Vec3f(infinity), Vec3f(-infinity)};
+    PlacedMedium placed{medium, {}, Vec3f(infinity), Vec3f(-infinity), medium->sigma_s(), medium->sigma_t()};
     if (world_from_object.is_invertible()) placed.object_from_world = world_from_object.inverse();
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3f p = world_from_object.point(mesh.positions[i]);
@@ -21,11 +21,11 @@ PlacedMedium place(std::shared_ptr<const Medium> medium, const Mesh& mesh, const
 
 }  // namespace
 
-Media::Media(std::shared_ptr<const Medium> world, std::span<const std::unique_ptr<const Mesh>> meshes,
+Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::unique_ptr<const Mesh>> meshes,
              std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (world) {
-        placed_.push_back({std::move(world), {}, Vec3f(-infinity), Vec3f(infinity)});
+        placed_.push_back({world, {}, Vec3f(-infinity), Vec3f(infinity), world->sigma_s(), world->sigma_t()});
         has_world_ = true;
     }
     for (const std::optional<Instance>& instance : instances) {
@@ -40,46 +40,98 @@ Media::Media(std::shared_ptr<const Medium> world, std::span<const std::unique_pt
             placed_.push_back(place(medium, mesh, instance->world_from_object));
             has_any = true;
         }
-        if (!has_any) continue;
-        if (!tracer_) tracer_ = std::make_unique<RayTracer>(true);
-        const auto id = static_cast<std::uint32_t>(boundaries_.size());
-        tracer_->set_mesh(instance->mesh, mesh);
-        tracer_->set_instance(id, instance->mesh, instance->world_from_object, visible_to_all);
-        boundaries_.push_back(std::move(boundary));
+        if (has_any) boundaries_.push_back(std::move(boundary));
+    }
+    std::size_t triangles = 0;
+    for (const Boundary& boundary : boundaries_) triangles += boundary.mesh->triangles.size();
+    if (triangles > FewTriangles::most) tracer_ = std::make_unique<RayTracer>(true);
+    for (std::uint32_t id = 0; id < boundaries_.size(); ++id) {
+        const auto& [mesh, instance, media] = boundaries_[id];
+        if (tracer_) {
+            tracer_->set_mesh(instance->mesh, *mesh);
+            tracer_->set_instance(id, instance->mesh, instance->world_from_object, visible_to_all);
+            continue;
+        }
+        for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+            const auto corner = [&](std::uint32_t at) {
+                return instance->world_from_object.point(mesh->positions[at]);
+            };
+            const Triangle& t = mesh->triangles[i];
+            const bool is_mirrored =
+                dot(instance->normal_matrix[0],
+                    cross(instance->world_from_object.linear[1], instance->world_from_object.linear[2])) < 0.0f;
+            const Vec3f b = corner(t.y), c = corner(t.z);
+            if (const std::uint32_t medium = medium_of(boundaries_[id], i); medium != no_medium)
+                few_triangles_.add(corner(t.x), is_mirrored ? c : b, is_mirrored ? b : c, medium);
+        }
     }
     if (tracer_) tracer_->commit();
 }
 
-MediaAlong::Passage Media::passage(const Ray& ray, const Crossing& crossing) const {
-    const Boundary& boundary = boundaries_[crossing.instance];
+std::uint32_t Media::medium_of(const Boundary& boundary, std::uint32_t triangle) const {
     const Mesh& mesh = *boundary.mesh;
-    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[crossing.triangle];
-    const std::uint32_t medium = boundary.medium_of_slot[std::min(slot, boundary.medium_of_slot.size() - 1)];
-    const Triangle& t = mesh.triangles[crossing.triangle];
-    const Vec3f a = mesh.positions[t.x];
-    const Vec3f normal = boundary.instance->normal_matrix * cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-    return {crossing.distance_m, medium, dot(normal, ray.direction) < 0.0f};
+    const std::size_t slot = mesh.triangle_slots.empty() ? 0 : mesh.triangle_slots[triangle];
+    return boundary.medium_of_slot[std::min(slot, boundary.medium_of_slot.size() - 1)];
+}
+
+void Media::find_passages(const Ray& ray, MediaAlong& along) const {
+    along.passages.clear();
+    if (!tracer_) {
+        few_triangles_.for_each_crossing(ray, [&](float distance_m, std::uint32_t medium, bool enters) {
+            along.passages.push_back({distance_m, medium, enters});
+        });
+        return;
+    }
+    along.crossings.clear();
+    tracer_->crossings({.origin = ray.origin, .direction = ray.direction}, along.crossings);
+    for (const Crossing& crossing : along.crossings) {
+        const Boundary& boundary = boundaries_[crossing.instance];
+        const std::uint32_t medium = medium_of(boundary, crossing.triangle);
+        if (medium == no_medium) continue;
+        const Mesh& mesh = *boundary.mesh;
+        const Triangle& t = mesh.triangles[crossing.triangle];
+        const Vec3f a = mesh.positions[t.x], across = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+        const bool enters = dot(boundary.instance->normal_matrix * across, ray.direction) < 0.0f;
+        along.passages.push_back({crossing.distance_m, medium, enters});
+    }
+}
+
+void Media::leave_boxes(const Ray& ray, MediaAlong& along) const {
+    along.is_inside.resize(placed_.size());
+    for (const MediaAlong::Passage& passage : along.passages) along.is_inside[passage.medium] = passage.enters;
+    const std::size_t count = along.passages.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t medium = along.passages[k].medium;
+        if (!along.is_inside[medium]) continue;
+        float leaves_m = std::numeric_limits<float>::infinity(), entered_m = 0.0f;
+        for (std::size_t i = k; i < count; ++i)
+            if (along.passages[i].medium == medium) entered_m = along.passages[i].distance_m;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float d = ray.direction[axis];
+            const float side = d > 0.0f ? placed_[medium].high[axis] : placed_[medium].low[axis];
+            if (d != 0.0f) leaves_m = std::min(leaves_m, (side - ray.origin[axis]) / d);
+        }
+        along.passages.push_back({std::max(leaves_m, entered_m), medium, false});
+        along.is_inside[medium] = false;
+    }
+    if (along.passages.size() > count) std::ranges::stable_sort(along.passages, {}, &MediaAlong::Passage::distance_m);
 }
 
 void Media::find_along(const Ray& ray, MediaAlong& along) const {
     along.intervals.clear();
     along.active.clear();
-    if (!tracer_) {
+    if (boundaries_.empty()) {
+        if (!has_world_) return;
         along.active.push_back(0);
         along.intervals.push_back({0.0f, ray.far_m, 0, 1});
         return;
     }
     // What a ray is within when it starts, what it meets later tells: it must be followed to its end.
-    along.crossings.clear();
-    tracer_->crossings({.origin = ray.origin, .direction = ray.direction}, along.crossings);
-    along.passages.clear();
-    for (const Crossing& crossing : along.crossings)
-        if (const MediaAlong::Passage found = passage(ray, crossing); found.medium != no_medium)
-            along.passages.push_back(found);
-    std::ranges::sort(along.passages, {}, &MediaAlong::Passage::distance_m);
+    find_passages(ray, along);
+    std::ranges::stable_sort(along.passages, {}, &MediaAlong::Passage::distance_m);
+    leave_boxes(ray, along);
     // In reverse, so that the first passage decides. An edge is crossed once or twice: passages set what is, and do not
     // count.
-    along.is_inside.resize(placed_.size());
     for (const MediaAlong::Passage& passage : std::views::reverse(along.passages))
         along.is_inside[passage.medium] = !passage.enters;
 

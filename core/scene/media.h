@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/few_triangles.h"
 #include "core/scene/instance.h"
 #include "core/scene/ray_tracer.h"
 #include "core/shaders/shader.h"
@@ -18,6 +19,9 @@ struct PlacedMedium {
     std::shared_ptr<const Medium> medium;
     Transform object_from_world;  ///< to the space that its grids are placed in
     Vec3f low, high;              ///< of world space, around it
+    Rgb sigma_s, sigma_t;         ///< the medium's, 1/m, where its density is 1
+
+    bool varies() const { return !medium->is_homogeneous(); }
 };
 
 /// A part of a ray in which the media are the same.
@@ -46,15 +50,14 @@ struct MediaAlong {
 
 class Media {
    public:
-    Media(std::shared_ptr<const Medium> world, std::span<const std::unique_ptr<const Mesh>> meshes,
+    Media(const std::shared_ptr<const Medium>& world, std::span<const std::unique_ptr<const Mesh>> meshes,
           std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders);
 
     /// No media at all: rays need not ask.
     bool is_empty() const { return placed_.empty(); }
     const PlacedMedium& at(std::uint32_t id) const { return placed_[id]; }
 
-    /// The media between a ray's origin and its far_m. A ray starts within what it leaves first, and stays
-    /// within what it enters and does not leave.
+    /// The media between a ray's origin and its far_m. A ray starts within what it leaves first.
     void find_along(const Ray& ray, MediaAlong& along) const;
 
    private:
@@ -65,13 +68,16 @@ class Media {
     };
     static constexpr std::uint32_t no_medium = ~0u;
 
-    /// Whether a ray that crosses the triangle so enters.
-    MediaAlong::Passage passage(const Ray& ray, const Crossing& crossing) const;
+    void find_passages(const Ray& ray, MediaAlong& along) const;
+    /// No ray stays within what it leaves by an edge that rounding missed, or by a hole: it leaves with the box around.
+    void leave_boxes(const Ray& ray, MediaAlong& along) const;
+    std::uint32_t medium_of(const Boundary& boundary, std::uint32_t triangle) const;
 
     std::vector<PlacedMedium> placed_;  ///< the world's comes first
     bool has_world_ = false;
     std::vector<Boundary> boundaries_;
-    std::unique_ptr<RayTracer> tracer_;  ///< of the boundaries; none where only the world is filled
+    FewTriangles few_triangles_;         ///< all boundaries, where they are few
+    std::unique_ptr<RayTracer> tracer_;  ///< of the boundaries, where they are many
 };
 
 }  // namespace pivot

@@ -22,16 +22,16 @@ struct MediumMix {
             left -= weight(lobes[i++]);
         return lobes[i];
     }
-    /// Of all lobes, at mu = cos to the direction of travel: sigma_s times phase function, 1/(m sr).
-    Rgb scattered(float mu) const {
+    /// Of all lobes, towards wi for a ray along direction: sigma_s times phase function, 1/(m sr).
+    Rgb scattered(const Vec3f& direction, const Vec3f& wi) const {
         Rgb sum(0.0f);
-        for (const ScatterLobe& lobe : lobes) sum += eval(lobe.phase, mu) * lobe.sigma_s;
+        for (const ScatterLobe& lobe : lobes) sum += eval(lobe.phase, direction, wi) * lobe.sigma_s;
         return sum;
     }
     /// The density of directions of a lobe that is chosen by its weight.
-    float pdf_omega(float mu) const {
+    float pdf_omega(const Vec3f& direction, const Vec3f& wi) const {
         float sum = 0.0f;
-        for (const ScatterLobe& lobe : lobes) sum += weight(lobe) * eval(lobe.phase, mu);
+        for (const ScatterLobe& lobe : lobes) sum += weight(lobe) * eval(lobe.phase, direction, wi);
         return sum / total_weight;
     }
 };
