@@ -1,5 +1,7 @@
 #include "core/integrators/fog.h"
 
+#include <numeric>
+
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_choice.h"
 
@@ -116,6 +118,18 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     const std::uint32_t dimension = FogDimensions(bounce).lamp(place);
     const Vec2f u = sampler.point(dimension), u_light = sampler.point(dimension + 1);
     // Evenly spread along the ray, so that what hides a part of it hides the same part of them.
+    const LightSampling strategy = work_.settings.light_sampling;
+    if (candidates.size() == 1 && weight == 1.0f && ray_.is_homogeneous() &&
+        (strategy == LightSampling::joint || strategy == LightSampling::sptd) &&
+        !std::holds_alternative<AreaLight>(*candidates[0].lamp)) {
+        ray_.set_typical_mix(candidates[0].interval, mix_);
+        if (mix_.lobes.size() == 1) {
+            const std::uint32_t batches = (count + batch_size - 1) / batch_size;
+            for (std::uint32_t i = 0; i < batches; ++i)
+                sample_places(candidates[0], i * batch_size, batches * batch_size, bounce, path, dimension);
+            return;
+        }
+    }
     std::size_t mixed = ray_.size();  // the interval that mix_ is of
     for (std::uint32_t k = 0; k < count; ++k) {
         float left = (static_cast<float>(k) + u.x) / static_cast<float>(count) * total;
@@ -132,6 +146,47 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
             ray_.set_mix_at(mixed = candidates[chosen].interval, at.distance_m, mix_);
         if (mix_.scatters()) sample_place(candidates[chosen], at.distance_m, share, turned, bounce, path, dimension);
     }
+}
+
+void Fog::sample_places(const Candidate& candidate, std::uint32_t first, std::uint32_t count, std::uint32_t bounce,
+                        const Path& path, std::uint32_t dimension) {
+    const Sampler& sampler = work_.samplers[path.sample];
+    const Vec2f u = sampler.point(dimension), u_light = sampler.point(dimension + 1);
+    const Batch k = gather([&](std::size_t i) { return static_cast<float>(first + i); });
+    const auto turned = [&](float from, float ratio) {
+        const Batch x = Batch(from) + Batch(ratio) * k;
+        return min(x - floor(x), Batch(1.0f - 0x1p-24f));
+    };
+    const ScatterTable::PlaceLanes at = candidate.table.sample((k + Batch(u.x)) / Batch(static_cast<float>(count)));
+    const Vec3b direction = broadcast(ray_.ray().direction);
+    const Vec3b position = broadcast(ray_.ray().origin) + at.distance_m * direction;
+    const MediumInterval& interval = ray_.interval(candidate.interval);
+    const Phase& phase = mix_.lobes[0].phase;
+    const PivotPhase<Batch> proxy{Batch(proxy_of(phase).g_p)};
+    const LampLanes lamp(*candidate.lamp, position);
+    const Vec3b wi =
+        pivot::sample(proxy, direction, lamp.cap, {turned(u_light.x, 0.7548777f), turned(u_light.y, 0.5698403f)});
+    const Batch pdf_omega = pdf_omega_uniform_inside(pivot(proxy, direction), lamp.cap, wi);
+    const Batch pdf = pdf_omega * at.pdf_m * Batch(static_cast<float>(count)), zero(0.0f);
+    const BatchMask is_usable = pdf > zero && pdf <= std::numeric_limits<Batch>::max() &&
+                                at.distance_m < std::numeric_limits<Batch>::infinity();
+    const RayOf<Batch> rays{.origin = position,
+                            .direction = wi,
+                            .near_m = zero,
+                            .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero)};
+    const Batch seen = select(is_usable, work_.scene.visibility(rays) * eval(phase, direction, wi) / pdf, zero);
+    if (!any(seen > zero)) return;
+    const Vec3b left =
+        transmittance_over(mix_.sigma_t, at.distance_m - Batch(interval.near_m)) *
+        pivot::transmittance(work_.scene.media(), rays, WordBatch(stream_seed(sampler, dimension)) + WordBatch(first));
+    const Vec3b light = select(seen > zero, left * lamp.radiance(wi) * seen, Vec3b(zero));
+    const auto sum = [](const Batch& batch) {
+        const Lanes lanes = store(batch);
+        return std::accumulate(lanes.begin(), lanes.end(), 0.0f);
+    };
+    add_light(bounce, path.sample,
+              path.throughput * ray_.before(candidate.interval) * mix_.lobes[0].sigma_s *
+                  Rgb(sum(light.x), sum(light.y), sum(light.z)));
 }
 
 void Fog::sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,

@@ -190,6 +190,30 @@ Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch&
     return transmittance_to(part, position, d / reach_m, reach_m);
 }
 
+LampLanes::LampLanes(const Light& lamp, const Vec3b& position)
+    : sphere(sphere_of(lamp)), spot(std::get_if<SpotLight>(&lamp)), to_center(Batch(0.0f)) {
+    if (sphere) {
+        to_center = broadcast(sphere->center) - position;
+        full_radiance = sphere->radiance;
+        cap = cap_from(*sphere, position);
+    } else {
+        const auto& sun = std::get<SunLight>(lamp);
+        full_radiance = sun.radiance;
+        cap = {broadcast(sun.cap.axis), Batch(sun.cap.versine)};
+    }
+}
+
+Batch LampLanes::distance_m(const Vec3b& wi) const {
+    if (!sphere) return std::numeric_limits<Batch>::infinity();
+    return sphere->is_facing_disk ? distance_to_facing_disk(to_center, wi)
+                                  : distance_to_sphere(to_center, Batch(sphere->radius_m), wi);
+}
+
+Vec3b LampLanes::radiance(const Vec3b& wi) const {
+    const Vec3b full = broadcast(full_radiance);
+    return spot ? full * spot_falloff(*spot, -dot(wi, broadcast(spot->direction))) : full;
+}
+
 FogLampSampler::FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,
                                LightSampling strategy)
     : lamp_(lamp),

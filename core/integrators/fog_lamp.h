@@ -33,6 +33,20 @@ Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& dista
 /// About what the media leave of the lamp's light up to places of the ray, as if they filled the boxes around them.
 Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m);
 
+/// A cap-shaped lamp from a batch of places.
+struct LampLanes {
+    LampLanes(const Light& lamp, const Vec3b& position);
+
+    Batch distance_m(const Vec3b& wi) const;
+    Vec3b radiance(const Vec3b& wi) const;
+
+    const SphereLight* sphere;  ///< null: a sun
+    const SpotLight* spot;      ///< null: not a spot
+    Vec3b to_center;            ///< of the sphere
+    Rgb full_radiance;
+    Cap<Batch> cap;
+};
+
 /// Samples of a lamp from a place in fog. By strategies joint and sptd a cap-shaped lamp is drawn jointly with the
 /// pivot phase functions that stand for the lobes, so that samples of the phase function need not share, and an area
 /// lamp cell by cell, by what is scattered of each; else evenly.

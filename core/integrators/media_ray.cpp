@@ -196,7 +196,40 @@ std::optional<MediaRay::Collided> MediaRay::collide(Rgb& throughput, RandomStrea
     return std::nullopt;
 }
 
+namespace {
+
+/// How far rays go within a box of another space, up to far_m.
+Batch length_in_box(const std::array<Vec3f, 2>& box, const Transform& box_from_world, const RayOf<Batch>& rays) {
+    const auto turned = [&](const Vec3b& v) {
+        const Mat3<float>& m = box_from_world.linear;
+        return broadcast(m[0]) * v.x + broadcast(m[1]) * v.y + broadcast(m[2]) * v.z;
+    };
+    const Vec3b origin = turned(rays.origin) + broadcast(box_from_world.translation),
+                direction = turned(rays.direction);
+    Batch near_m(0.0f), far_m = rays.far_m;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Batch d = direction[axis];
+        const Batch inverse = Batch(1.0f) / select(abs(d) < Batch(1e-20f), Batch(1e-20f), d);
+        const Batch low = (Batch(box[0][axis]) - origin[axis]) * inverse;
+        const Batch high = (Batch(box[1][axis]) - origin[axis]) * inverse;
+        near_m = max(near_m, min(low, high));
+        far_m = min(far_m, max(low, high));
+    }
+    return max(far_m - near_m, Batch(0.0f));
+}
+
+}  // namespace
+
 Vec3b transmittance(const Media& media, const RayOf<Batch>& rays, const WordBatch& seeds) {
+    if (media.are_even_boxes()) {
+        Vec3b left(Batch(1.0f));
+        for (std::uint32_t id = 0; id < media.count(); ++id) {
+            const PlacedMedium& placed = media.at(id);
+            const Batch length_m = placed.box ? length_in_box(*placed.box, placed.object_from_world, rays) : rays.far_m;
+            left = left * transmittance_over(placed.sigma_t, length_m);
+        }
+        return left;
+    }
     MediaRay ray(media);
     const std::array<Ray, batch_size> each = unpack<RayOf>(rays);
     std::array<std::uint32_t, batch_size> seed;

@@ -42,8 +42,34 @@ class ScatterTable {
     struct Place {
         float distance_m, pdf_m;
     };
-    /// u in [0, 1); the sum is above 0.
+    /// The sum is above 0.
+    struct PlaceLanes {
+        Batch distance_m, pdf_m;
+    };
+    PlaceLanes sample(const Batch& u) const {
+        Lanes in_table = store(u), density;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const InTable place = find(in_table[i]);
+            in_table[i] = place.u, density[i] = place.density;
+        }
+        const Batch distance_m = map_.distance_m(load(in_table));
+        return {distance_m, load(density) * map_.density(distance_m)};
+    }
+    /// u in [0, 1).
     Place sample(float u) const {
+        const InTable place = find(u);
+        const float distance_m = map_.distance_m(place.u);
+        return {distance_m, place.density * map_.density(distance_m)};
+    }
+
+   private:
+    static constexpr float least_share = 0.02f;
+
+    /// A place of [0, 1] that the map takes to the ray, and its density there.
+    struct InTable {
+        float u, density;
+    };
+    InTable find(float u) const {
         const float last = static_cast<float>(count_ - 1), whole = (1.0f + least_share) * sum_ * last;
         float left = u * whole;
         std::size_t cell = 0;
@@ -52,12 +78,8 @@ class ScatterTable {
         const float low = nodes_[cell], rise = nodes_[cell + 1] - low;
         const float root = low + std::sqrt(std::max(low * low + 2.0f * rise * left, 0.0f));
         const float z = root > 0.0f ? std::clamp(2.0f * left / root, 0.0f, 1.0f) : 0.5f;
-        const float distance_m = map_.distance_m((static_cast<float>(cell) + z) / last);
-        return {distance_m, (low + rise * z) * last / whole * map_.density(distance_m)};
+        return {(static_cast<float>(cell) + z) / last, (low + rise * z) * last / whole};
     }
-
-   private:
-    static constexpr float least_share = 0.02f;
 
     DistanceMap map_;
     std::size_t count_;

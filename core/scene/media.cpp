@@ -6,11 +6,41 @@
 namespace pivot {
 namespace {
 
+/// The corners of a mesh that is a box along the axes of its space, seen from outside; nothing of others.
+std::optional<std::array<Vec3f, 2>> box_of(const Mesh& mesh) {
+    if (mesh.vertex_count() != 8 || mesh.triangles.size() != 12) return std::nullopt;
+    std::array<Vec3f, 2> box{mesh.positions[0], mesh.positions[0]};
+    for (std::size_t i = 0; i < 8; ++i) {
+        box[0] = glm::min(box[0], mesh.positions[i]);
+        box[1] = glm::max(box[1], mesh.positions[i]);
+    }
+    const Vec3f center = 0.5f * (box[0] + box[1]);
+    std::uint32_t corners = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        std::uint32_t corner = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float at = mesh.positions[i][axis];
+            if (at != box[0][axis] && at != box[1][axis]) return std::nullopt;
+            if (at == box[1][axis]) corner |= 1u << axis;
+        }
+        corners |= 1u << corner;
+    }
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3f a = mesh.positions[t.x], across = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+        if (!(dot(across, a - center) > 0.0f)) return std::nullopt;
+    }
+    return corners == 0xff ? std::optional(box) : std::nullopt;
+}
+
 /// The box around a mesh where it stands.
 PlacedMedium place(const std::shared_ptr<const Medium>& medium, const Mesh& mesh, const Transform& world_from_object) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    PlacedMedium placed{medium, {}, Vec3f(infinity), Vec3f(-infinity), medium->sigma_s(), medium->sigma_t()};
-    if (world_from_object.is_invertible()) placed.object_from_world = world_from_object.inverse();
+    PlacedMedium placed{medium,      {}, Vec3f(infinity), Vec3f(-infinity), medium->sigma_s(), medium->sigma_t(),
+                        std::nullopt};
+    if (world_from_object.is_invertible()) {
+        placed.object_from_world = world_from_object.inverse();
+        placed.box = box_of(mesh);
+    }
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3f p = world_from_object.point(mesh.positions[i]);
         placed.low = glm::min(placed.low, p);
@@ -25,7 +55,8 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::un
              std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (world) {
-        placed_.push_back({world, {}, Vec3f(-infinity), Vec3f(infinity), world->sigma_s(), world->sigma_t()});
+        placed_.push_back(
+            {world, {}, Vec3f(-infinity), Vec3f(infinity), world->sigma_s(), world->sigma_t(), std::nullopt});
         has_world_ = true;
     }
     for (const std::optional<Instance>& instance : instances) {
@@ -42,6 +73,11 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::un
         }
         if (has_any) boundaries_.push_back(std::move(boundary));
     }
+    are_even_boxes_ = std::ranges::all_of(placed_, [&](const PlacedMedium& placed) {
+        return !placed.varies() && (placed.box || (has_world_ && &placed == placed_.data()));
+    });
+    for (const Boundary& boundary : boundaries_)
+        are_even_boxes_ = are_even_boxes_ && boundary.medium_of_slot.size() == 1;
     std::size_t triangles = 0;
     for (const Boundary& boundary : boundaries_) triangles += boundary.mesh->triangles.size();
     if (triangles > FewTriangles::most) tracer_ = std::make_unique<RayTracer>(true);

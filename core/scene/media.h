@@ -17,9 +17,10 @@ namespace pivot {
 /// A medium where it stands.
 struct PlacedMedium {
     std::shared_ptr<const Medium> medium;
-    Transform object_from_world;  ///< to the space that its grids are placed in
-    Vec3f low, high;              ///< of world space, around it
-    Rgb sigma_s, sigma_t;         ///< the medium's, 1/m, where its density is 1
+    Transform object_from_world;              ///< to the space that its grids are placed in
+    Vec3f low, high;                          ///< of world space, around it
+    Rgb sigma_s, sigma_t;                     ///< the medium's, 1/m, where its density is 1
+    std::optional<std::array<Vec3f, 2>> box;  ///< of object space, corners of what it fills where that is a box
 
     bool varies() const { return !medium->is_homogeneous(); }
 };
@@ -55,7 +56,11 @@ class Media {
 
     /// No media at all: rays need not ask.
     bool is_empty() const { return placed_.empty(); }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(placed_.size()); }
     const PlacedMedium& at(std::uint32_t id) const { return placed_[id]; }
+
+    /// Whether all media are even, and fill boxes or all space.
+    bool are_even_boxes() const { return are_even_boxes_; }
 
     /// The media between a ray's origin and its far_m. A ray starts within what it leaves first.
     void find_along(const Ray& ray, MediaAlong& along) const;
@@ -74,7 +79,7 @@ class Media {
     std::uint32_t medium_of(const Boundary& boundary, std::uint32_t triangle) const;
 
     std::vector<PlacedMedium> placed_;  ///< the world's comes first
-    bool has_world_ = false;
+    bool has_world_ = false, are_even_boxes_ = false;
     std::vector<Boundary> boundaries_;
     FewTriangles few_triangles_;         ///< all boundaries, where they are few
     std::unique_ptr<RayTracer> tracer_;  ///< of the boundaries, where they are many
