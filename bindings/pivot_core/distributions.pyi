@@ -34,6 +34,7 @@ __all__: list[str] = [
     "ggx_cap_sample",
     "ggx_polygon_chords_integral",
     "ggx_polygon_integral",
+    "henyey_greenstein_cap_integral",
     "henyey_greenstein_cdf",
     "henyey_greenstein_eval",
     "henyey_greenstein_mean_cosine",
@@ -288,6 +289,14 @@ def ggx_polygon_integral(wo: typing.Any, alpha_x: typing.Any, alpha_y: typing.An
     wo: (..., 3) unit, in the shading frame (z = normal), above the surface; alpha_x, alpha_y: (...) in (0, 1]; polygon:
     (..., n, 3), its vertices relative to the shaded point, either way round; what is below the surface is clipped. Returns
     the integral (...) and the half vector (..., 3) of the highlight's centre. Converged to the precision of the input.
+    """
+
+def henyey_greenstein_cap_integral(
+    g: typing.Any, omega_o: typing.Any, light_axis: typing.Any, light_versine: typing.Any
+) -> typing.Any:
+    """
+    henyey_greenstein_cap_integral(g, omega_o, light_axis, light_versine): the phase function's integral over a sphere
+    light's cap, in [0, 1], to half a percent. Arguments as of pivot_phase_cap_integral.
     """
 
 def henyey_greenstein_cdf(g: typing.Any, mu: typing.Any) -> typing.Any:

@@ -188,6 +188,23 @@ SWEEPS = [
             ("pivot_phase_of_mean_cosine", pd.pivot_phase_of_mean_cosine),
         )
     ),
+    *(
+        Sweep(
+            "henyey_greenstein_cap_integral",
+            pd.henyey_greenstein_cap_integral,
+            limit,
+            walk,
+            inputs,
+            bound=5e-3,
+            why="where the rule for small caps ends, as precise as the integral itself",
+        )
+        for limit, walk, inputs in (
+            ("g -> 1", powers(0, -4), lambda t: (1 - t / 2, OMEGA, AXIS, 0.1)),
+            ("g -> 1, light ahead", powers(0, -4), lambda t: (1 - t / 2, AXIS, AXIS, 1e-3)),
+            ("light's versine -> 0", powers(0, -12), lambda t: (0.9, OMEGA, AXIS, t)),
+            ("light's versine -> 2", powers(0, -6), lambda t: (0.9, OMEGA, AXIS, 2 - t)),
+        )
+    ),
     Sweep(
         "pivot_phase_cap_integral",
         pd.pivot_phase_cap_integral,
