@@ -46,4 +46,4 @@ def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bp
     target = output_volume(tree)
     if target is not None:
         owner = Owner(name, context.reporter, Program(context.core, context.scene, context.images), world)
-        context.scene.set_world_medium(core_medium(context.core, node_volume(target, owner), owner))
+        context.scene.set_world_medium(core_medium(context, node_volume(target, owner), name))

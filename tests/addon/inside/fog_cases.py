@@ -104,7 +104,6 @@ def _phases() -> None:
 def _reported() -> None:
     noisy = fog("noisy", "ShaderNodeVolumeScatter", Color=COLOR)
     noise = noisy.id_data.nodes.new("ShaderNodeTexNoise")
-    noisy.id_data.links.new(noise.outputs[0], noisy.inputs["Density"])
     noisy.id_data.links.new(noise.outputs[0], noisy.inputs["Anisotropy"])
     fog("surface", "ShaderNodeBsdfDiffuse")
 
