@@ -132,7 +132,7 @@ def _room(scratch: Path) -> Any:
     coordinates, height, fall = (
         tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "SeparateXYZ", "MapRange")
     )
-    for name, value in (("From Min", -0.45), ("From Max", 0.3), ("To Min", 0.3), ("To Max", 0)):
+    for name, value in (("From Min", -0.45), ("From Max", 0.3), ("To Min", 0.1), ("To Max", 0)):
         fall.inputs[name].default_value = value
     tree.links.new(coordinates.outputs["Object"], height.inputs[0])
     tree.links.new(height.outputs["Z"], fall.inputs[0])
