@@ -30,7 +30,13 @@ class Slots:
 
     ids: tuple[int, ...]  # the core's, at least one
     attributes: frozenset[str]  # that they read of their meshes
-    is_placed: bool = False  # what fills the object is as its first instance has it
+    without_surface: frozenset[int]  # those whose faces only bound what fills the object
+    is_placed: bool  # what fills the object is as its first instance has it
+
+    def ids_without_surface(self) -> tuple[int, ...]:
+        """Of faces that all have none: what the other slots have does not count."""
+        stand_in = self.ids[min(self.without_surface)]
+        return tuple(id_ if slot in self.without_surface else stand_in for slot, id_ in enumerate(self.ids))
 
 
 @dataclass(frozen=True)
@@ -70,6 +76,7 @@ class MaterialTable:
         return Slots(
             ids=tuple(self._exported(material, interior) for material in materials),
             attributes=frozenset().union(*(look.attributes for look in looks)),
+            without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
         )
 

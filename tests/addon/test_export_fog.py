@@ -100,6 +100,16 @@ def test_what_has_a_surface(media: dict[str, Any], cases: Any) -> None:
     check(media["milky"], (COLOR, 0, HG))
 
 
+def test_faces_without_a_surface_are_apart_from_those_with_one(cases: Any) -> None:
+    """An instance is passed by rays only if none of its materials has a surface."""
+    mixed, alone, beyond = cases["slots"]
+    seen, passed = mixed
+    assert seen == {"materials": ["grey", "milky", "clear"], "slots": [0, 0, 1, 1], "triangles": 4}
+    assert passed == {"materials": ["clear"] * 3, "slots": [2, 2], "triangles": 2}
+    assert [part["materials"] for part in alone] == [["clear"] * 3]
+    assert [(part["materials"][-1], part["triangles"]) for part in beyond] == [("clear", 4), ("clear", 2)]
+
+
 def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any) -> None:
     said: dict[str, list[str]] = {}
     for report in cases["reports"]:
