@@ -15,7 +15,7 @@ from ..report import naming
 from .baked import Interior, is_placed, reads_place
 from .context import Context
 from .grids import Lattice
-from .media import core_medium
+from .media import core_medium, report_analytic
 from .microfacets import with_ndf
 from .nodes import Owner, active_tree, output_socket
 from .program import Program
@@ -60,8 +60,9 @@ class _Look:
 class MaterialTable:
     """The core's ids of the materials met so far."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, world_shines: bool) -> None:
         self._context = context
+        self._world_shines = world_shines
         self._looks: dict[int, _Look] = {}  # by the address of the Blender material; 0: none
         self._volumes: dict[Hashable, Volume | None] = {}  # by that and the key of an object's grids
         self._materials: dict[Hashable, int] = {}  # by the material, and the object where what fills it varies
@@ -138,7 +139,10 @@ class MaterialTable:
 
     def _medium(self, material: bpy.types.Material | None, volume: Volume, interior: Interior) -> Any:
         phase = material.pivot.phase if material else "HENYEY_GREENSTEIN"
-        return core_medium(self._context, volume, _where(material, interior.blender_object), interior, phase)
+        owner = _where(material, interior.blender_object)
+        if self._world_shines:
+            report_analytic(self._context, volume, owner)
+        return core_medium(self._context, volume, owner, interior, phase)
 
     def _program(self) -> Program:
         return Program(self._context.core, self._context.scene, self._context.images)

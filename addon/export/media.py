@@ -49,6 +49,15 @@ def core_medium(
         )
 
 
+def report_analytic(context: Context, volume: Volume, owner: str) -> None:
+    """Say what the analytic integrator leaves out of a volume in a world that shines."""
+    is_analytic = context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
+    if is_analytic and not all(lobe.sigma_s.is_always(0) for lobe in volume.lobes):
+        context.reporter.warn(
+            f"{owner}: in the analytic integrator its volume scatters none of the world's light. Fix: use Monte Carlo"
+        )
+
+
 def _coefficients(
     context: Context, volume: Volume, owner: str, interior: Interior | None, lattice: Lattice | None
 ) -> list[Array]:

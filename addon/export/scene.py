@@ -87,8 +87,8 @@ def export_scene(
     images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
     context = Context(core, core.Scene(), depsgraph, reporter, images)
     _report_settings(context)
-    export_world(context)
-    _Exporter(context, check_cancel).export_objects()
+    world_shines = export_world(context)
+    _Exporter(context, check_cancel, world_shines).export_objects()
     return context
 
 
@@ -108,10 +108,10 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 
 class _Exporter:
-    def __init__(self, context: Context, check_cancel: Callable[[], None]) -> None:
+    def __init__(self, context: Context, check_cancel: Callable[[], None], world_shines: bool) -> None:
         self._context = context
         self._check_cancel = check_cancel
-        self._materials = MaterialTable(context)
+        self._materials = MaterialTable(context, world_shines)
         # By the evaluated data's address, what is read, and the slots whose faces rays pass.
         self._meshes: dict[tuple[int, frozenset[str], frozenset[int]], list[tuple[int, bool]]] = {}
         self._groups: dict[tuple[Any, ...], list[_Group]] = {}  # by the original object and the evaluated data

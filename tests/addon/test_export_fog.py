@@ -129,6 +129,15 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
     assert said == expected
 
 
+def test_the_world_lights_no_fog_in_the_analytic_integrator_which_is_said(cases: Any) -> None:
+    dark, lit = cases["analytic"]
+    assert dark == []
+    assert lit == [
+        "Pivot: object 'scatter quad', material 'scatter': in the analytic integrator its volume scatters none of the "
+        "world's light. Fix: use Monte Carlo"
+    ]
+
+
 def test_worlds(cases: Any) -> None:
     """A world of fog alone is black around."""
     lit, dark = cases["worlds"]

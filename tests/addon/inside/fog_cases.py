@@ -27,6 +27,7 @@ def main(folder: Path) -> Any:
         "without_surface": sorted(recording.without_surface),
         "reports": recording.reports,
         "slots": [_slots(*slots) for slots in ((0, 1, 2), (2, 2, 2), (0, 0, 7))],
+        "analytic": [_analytic(*radiance) for radiance in ((0, 0, 0), (0, 0, 1))],
         "worlds": [_world(surface) for surface in (True, False)],
         "cosines": _mean_cosines(),
     }
@@ -136,6 +137,17 @@ def _slots(*slots: int) -> Any:
         }
         for group, mesh in zip(strips, arrays, strict=True)
     ]
+
+
+def _analytic(*radiance: float) -> list[str]:
+    """What is said of fog that scatters, and of fog that does not, in a world of this light."""
+    parts.clear()
+    parts.camera()
+    parts.world(radiance)
+    fog("scatter", "ShaderNodeVolumeScatter")
+    fog("absorption", "ShaderNodeVolumeAbsorption")
+    bpy.context.scene.pivot.integrator = "ANALYTIC"
+    return record().reports
 
 
 def _world(has_surface: bool) -> Any:
