@@ -109,9 +109,10 @@ class MaterialTable:
             look = self._look(material, user)
             medium = None if volume is None else self._medium(material, volume, interior)
             name = material.name if material else "none"
-            self._materials[key] = self._context.scene.add_material(
-                f"{name} in {user.name}" if varies else name, look.shader, medium=medium, has_surface=look.is_there
-            )
+            with naming(_where(material, user), "give its colours and numbers finite values"):
+                self._materials[key] = self._context.scene.add_material(
+                    f"{name} in {user.name}" if varies else name, look.shader, medium=medium, has_surface=look.is_there
+                )
         return self._materials[key]
 
     def _look(self, material: bpy.types.Material | None, user: bpy.types.Object) -> _Look:
