@@ -1,18 +1,20 @@
-"""Densities and glows that nodes compute, baked to voxels: what varies within a volume is a grid of the core's.
+"""What nodes compute within an object, baked to voxels: what varies within a volume is a grid of the core's.
 
 A world has no bounds, so what varies in its volume cannot be baked.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import object_attributes
+from .attributes import is_of_mesh, object_attributes
 from .context import Context
+from .grids import NO_GRIDS, Grids, Lattice
 from .program import Program, Register, Value
 
 Array = NDArray[np.float32]
@@ -34,84 +36,130 @@ _UNKNOWN = {
     **dict.fromkeys(_OF_SURFACES.split(), "the surface"),
     **dict.fromkeys(_OF_INSTANCES.split(), "the instance"),
 }
+# Ops that give something else for each instance of an object.
+_PLACED = frozenset(
+    [
+        *("position", "position_in", "object_location", "object_random"),
+        *(f"world_from_object_{kind}" for kind in ("point", "vector", "normal")),
+        *(f"object_from_world_{kind}" for kind in ("point", "vector", "normal")),
+    ]
+)
+
+
+@dataclass(frozen=True)
+class Interior:
+    """What shaders are told within an object."""
+
+    blender_object: bpy.types.Object  # evaluated
+    mesh: bpy.types.Mesh | None  # around it, with what is edited in Edit Mode; None: of a Volume object
+    object_to_world: Array  # (4, 4)
+    random: float  # Object Info's
+    grids: Grids = NO_GRIDS
+
+    def lattice(self, grid_names: frozenset[str]) -> Lattice | None:
+        """Where voxels lie: those of the grids of these names, else LONGEST along the longest side of the mesh.
+
+        None for a Volume object without any of the grids.
+        """
+        of_grids = self.grids.lattice(grid_names)
+        return bounds_lattice(self.mesh) if of_grids is None and self.mesh is not None else of_grids
+
+
+def is_placed(program: Program) -> bool:
+    """Whether it may give something else for each instance of an object."""
+    return not _PLACED.isdisjoint(program.program.ops)
+
+
+def reads_place(program: Program) -> bool:
+    """Whether it asks for more of a place or an object than the grids there."""
+    asks_elsewhere = any(op != "attribute" and program.ops[op][2] for op in program.program.ops)
+    return asks_elsewhere or "generated:" in program.attributes
 
 
 def bake(
-    context: Context,
-    program: Program,
-    value: Value,
-    blender_object: bpy.types.Object,
-    object_to_world: Array,
-    owner: str,
-    random: float = 0.0,
-) -> Any:
-    """A pivot_core.VoxelGrid, in object space, of what a program makes of a value within an object's bounds.
+    context: Context, program: Program, values: Sequence[Value], lattice: Lattice, interior: Interior, owner: str
+) -> list[Array]:
+    """(N, parts) of each value at a lattice's points, x fastest; (1, parts) of one that is a constant.
 
-    value: a number or a colour, taken as 0 where it is negative or not finite. blender_object: evaluated, a mesh.
-    object_to_world: (4, 4). owner: how reports name it. random: Object Info's. LONGEST voxels lie along the longest
-    side of the bounds, the outermost on them. As in Cycles, Generated coordinates are those of the mesh's texture
-    space, and attributes of the mesh are 0.
+    What varies is taken as 0 where it is negative or not finite. owner: how reports name it. As in Cycles, Generated
+    coordinates are those of the mesh's texture space, and attributes that are no grids are 0.
     """
     _report_unknown(context, program, owner)
-    low, high = _bounds(blender_object)
-    size, spacing = _lattice(high - low)
-    x, y, z = (start + step * np.arange(count) for start, step, count in zip(low, spacing, size, strict=True))
-    registers = [part.index for part in value.parts if isinstance(part, Register)]
-    values = np.empty((len(z), len(y), len(x), len(value.parts)), np.float32)
+    registers = sorted({part.index for value in values for part in value.parts if isinstance(part, Register)})
+    columns = np.empty((lattice.count, len(registers)), np.float32)
+    blender_object, scene = interior.blender_object, context.scene
+    of_object = object_attributes(frozenset(program.attributes), blender_object, None, context.depsgraph)
     told = {
         "color": tuple(blender_object.color),
         "pass_index": blender_object.pass_index,
-        "random": random,
-        "object_attributes": {
-            context.scene.attribute_id(name): numbers
-            for name, numbers in object_attributes(
-                frozenset(program.attributes), blender_object, None, context.depsgraph
-            ).items()
-        },
+        "random": interior.random,
+        "object_attributes": {scene.attribute_id(name): numbers for name, numbers in of_object.items()},
     }
-    layers = max(1, _POINTS_AT_ONCE // (len(y) * len(x)))
-    for first in range(0, len(z), layers):
-        chunk = values[first : first + layers]
-        points = np.stack(np.meshgrid(z[first : first + layers], y, x, indexing="ij")[::-1], -1).reshape(-1, 3)
-        points = points.astype(np.float32)
-        attributes = _attributes(context, program, blender_object.data, points)
-        columns = iter(program.program.run_at(points, object_to_world, registers, attributes=attributes, **told).T)
-        for index, part in enumerate(value.parts):
-            chunk[..., index] = next(columns).reshape(chunk.shape[:3]) if isinstance(part, Register) else part
-    values[~(np.isfinite(values) & (values > 0))] = 0
-    grid_from_object = np.diag([*(1 / spacing), 1.0])
-    grid_from_object[:3, 3] = -low / spacing
-    numbers = values if len(value.parts) == 3 else values[..., 0]
-    return context.core.VoxelGrid(numbers, grid_from_object.astype(np.float32))
+    tables = _grid_tables(program, lattice, interior.grids) if registers else {}
+    for first in range(0, lattice.count if registers else 0, _POINTS_AT_ONCE):
+        part = slice(first, min(first + _POINTS_AT_ONCE, lattice.count))
+        points = lattice.points(part).astype(np.float32)
+        attributes = {scene.attribute_id(name): table[part] for name, table in tables.items()}
+        if "generated:" in program.attributes:
+            attributes[scene.attribute_id("generated:")] = _generated(interior.mesh, points)
+        columns[part] = program.program.run_at(
+            points, interior.object_to_world, registers, attributes=attributes, **told
+        )
+    columns[~(np.isfinite(columns) & (columns > 0))] = 0
+    return [_joined(value, registers, columns) for value in values]
 
 
-def _lattice(extent: NDArray[np.float64]) -> tuple[tuple[int, int, int], NDArray[np.float64]]:
-    """How many voxels lie along each side of a box, one along what is flat, and how far apart."""
+def _joined(value: Value, registers: list[int], columns: Array) -> Array:
+    if value.is_constant:
+        return np.array([value.numbers], np.float32)
+    parts = [columns[:, registers.index(part.index)] if isinstance(part, Register) else part for part in value.parts]
+    return np.stack(np.broadcast_arrays(*parts), axis=1).astype(np.float32, copy=False)
+
+
+def bounds_lattice(mesh: bpy.types.Mesh) -> Lattice:
+    """LONGEST points along the longest side of a mesh's bounds, the outermost on them; one along what is flat."""
+    positions = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", positions.ravel())
+    low, high = positions.min(axis=0).astype(float), positions.max(axis=0).astype(float)
+    extent = high - low
     spacing = extent.max() / (LONGEST - 1)
     counts = np.rint(extent / spacing if spacing > 0 else extent).astype(int) + 1
     # What is flat takes any spacing: its voxels fall to 0 within one of it.
     apart = np.where(counts > 1, extent / np.maximum(counts - 1, 1), max(spacing, 1e-6))
-    return (int(counts[0]), int(counts[1]), int(counts[2])), apart
+    grid_from_object = np.diag([*(1 / apart), 1.0])
+    grid_from_object[:3, 3] = -low / apart
+    x, y, z = (int(count) for count in counts)
+    return Lattice((x, y, z), grid_from_object)
 
 
-def _bounds(blender_object: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The lowest and highest corner in object space, of the mesh as it is evaluated."""
-    mesh = blender_object.data
-    positions = np.empty((len(mesh.vertices), 3), np.float32)
-    mesh.vertices.foreach_get("co", positions.ravel())
-    if len(positions) == 0:
-        return np.zeros(3), np.zeros(3)
-    return positions.min(axis=0).astype(float), positions.max(axis=0).astype(float)
+def _grid_tables(program: Program, lattice: Lattice, grids: Grids) -> dict[str, Array]:
+    """(N, 1..4) of each attribute that a program reads but Generated coordinates: 0 with an alpha of 0 without one."""
+    tables = {}
+    for name in filter(is_of_mesh, program.attributes - {"generated:"}):
+        kind, _, inner = name.partition(":")
+        is_grid = kind == "attribute" and grids.has(inner)
+        tables[name] = (
+            _straight(grids.found[inner].at(lattice)) if is_grid else np.zeros((lattice.count, 4), np.float32)
+        )
+    return tables
 
 
-def _attributes(context: Context, program: Program, mesh: bpy.types.Mesh, points: Array) -> dict[int, Array]:
-    """Generated coordinates, which alone of a mesh's attributes go on within it. [Cycles 4.5 kernel/geom/volume.h]"""
-    if "generated:" not in program.attributes:
-        return {}
+def _straight(values: Array) -> Array:
+    """Colours with an alpha are kept multiplied by it. [Cycles 4.5 geom/volume.h]"""
+    if values.shape[1] != 4:
+        return values
+    alpha = values[:, 3:]
+    is_scaled = (alpha > 1e-6) & (alpha != 1)
+    return np.where(is_scaled, np.hstack([values[:, :3] / np.where(is_scaled, alpha, 1), alpha]), values)
+
+
+def _generated(mesh: bpy.types.Mesh | None, points: Array) -> Array:
+    """Generated coordinates, which go on within a mesh; a Volume object has none. [Cycles 4.5 kernel/geom/volume.h]"""
+    if mesh is None:
+        return points
     half = 2 * np.array(mesh.texspace_size, np.float32)
     half[half == 0] = 1
-    generated = (points - np.array(mesh.texspace_location, np.float32)) / half + np.float32(0.5)
-    return {context.scene.attribute_id("generated:"): generated}
+    return (points - np.array(mesh.texspace_location, np.float32)) / half + np.float32(0.5)
 
 
 def _report_unknown(context: Context, program: Program, owner: str) -> None:

@@ -27,6 +27,12 @@ class Lattice:
         """Whether the points are the same."""
         return self.size == other.size and np.array_equal(self.grid_from_object, other.grid_from_object)
 
+    def points(self, part: slice) -> Matrix:
+        """(N, 3) in object space, of a part of them; x changes fastest."""
+        z, y, x = np.unravel_index(np.arange(part.start, part.stop), self.size[::-1])
+        object_from_grid = np.linalg.inv(self.grid_from_object)
+        return np.stack([x, y, z], axis=1) @ object_from_grid[:3, :3].T + object_from_grid[:3, 3]
+
     def corners(self, beyond: int) -> Matrix:
         """(8, 4) in object space, so many steps beyond the outermost points; x changes fastest."""
         ends = [(-beyond, n - 1 + beyond) for n in self.size]
@@ -70,7 +76,7 @@ class Grid:
         return result
 
 
-@dataclass
+@dataclass(eq=False)
 class Grids:
     """Those of one object, read when asked for. read: None where there is none of the name."""
 
@@ -96,6 +102,9 @@ class Grids:
         if all(lattice.is_at(finest) for lattice in lattices):
             return finest
         return _enclosing(finest, lattices)
+
+
+NO_GRIDS = Grids(lambda _: None, key=None)
 
 
 def _enclosing(finest: Lattice, lattices: list[Lattice]) -> Lattice:

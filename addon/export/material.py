@@ -1,6 +1,6 @@
 """Materials: each of Blender's becomes one of the core's, made when first met.
 
-What fills an object that keeps grids is a material of the core's for each such object.
+What fills an object and varies within it is a material of the core's for each such object.
 """
 
 from __future__ import annotations
@@ -12,21 +12,31 @@ from typing import Any
 import bpy
 
 from ..report import naming
+from .baked import Interior, is_placed, reads_place
 from .context import Context
-from .grids import Grids, Lattice
-from .media import NO_GRIDS, core_medium
+from .grids import Lattice
+from .media import core_medium, report_analytic
 from .microfacets import with_ndf
 from .nodes import Owner, active_tree, output_socket
 from .program import Program
 from .shader import grey, material_surface
 from .surface import Surface
-from .volume import default_volume, node_volume, output_volume
+from .volume import Volume, default_volume, node_volume, output_volume
 
 
 @dataclass(frozen=True)
-class _Exported:
-    id: int  # the core's
-    attributes: frozenset[str]  # that it reads of its meshes
+class Slots:
+    """The materials of an object."""
+
+    ids: tuple[int, ...]  # the core's, at least one
+    attributes: frozenset[str]  # that they read of their meshes
+    without_surface: frozenset[int]  # those whose faces only bound what fills the object
+    is_placed: bool  # what fills the object is as its first instance has it
+
+    def ids_without_surface(self) -> tuple[int, ...]:
+        """Of faces that all have none: what the other slots have does not count."""
+        stand_in = self.ids[min(self.without_surface)]
+        return tuple(id_ if slot in self.without_surface else stand_in for slot, id_ in enumerate(self.ids))
 
 
 @dataclass(frozen=True)
@@ -34,77 +44,112 @@ class Filling:
     """What an object is full of, without a surface."""
 
     id: int  # the core's
-    lattice: Lattice | None  # of the grids that it reads; None: it is the same everywhere
+    lattice: Lattice | None  # of the grids that it reads; None: none
+    is_placed: bool
+
+
+@dataclass(frozen=True)
+class _Look:
+    """A material's surface."""
+
+    shader: Any  # the core's
+    is_there: bool
+    attributes: frozenset[str]
 
 
 class MaterialTable:
     """The core's ids of the materials met so far."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, world_shines: bool) -> None:
         self._context = context
-        self._materials: dict[int, _Exported] = {}  # by the address of the Blender material; 0: none
-        self._fillings: dict[Hashable, Filling] = {}  # by that and the key of an object's grids
+        self._world_shines = world_shines
+        self._looks: dict[int, _Look] = {}  # by the address of the Blender material; 0: none
+        self._volumes: dict[Hashable, Volume | None] = {}  # by that and the key of an object's grids
+        self._materials: dict[Hashable, int] = {}  # by the material, and the object where what fills it varies
+        self._fillings: dict[Hashable, Filling] = {}  # by the material, the grids, and the object likewise
         self._override = context.depsgraph.view_layer_eval.material_override
 
-    def slots(
-        self, slot_materials: list[bpy.types.Material | None], user: bpy.types.Object
-    ) -> tuple[tuple[int, ...], frozenset[str]]:
-        """One id per slot, at least one, and the attributes that they read. user: the object to name in reports."""
-        slots = [self._exported(self._override or material, user) for material in slot_materials or [None]]
-        return tuple(slot.id for slot in slots), frozenset().union(*(slot.attributes for slot in slots))
+    def slots(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Slots:
+        """The materials of an object's slots."""
+        materials = [self._override or material for material in slot_materials or [None]]
+        looks = [self._look(material, interior.blender_object) for material in materials]
+        volumes = [self._volume(material, interior) for material in materials]
+        return Slots(
+            ids=tuple(self._exported(material, interior) for material in materials),
+            attributes=frozenset().union(*(look.attributes for look in looks)),
+            without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
+            is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
+        )
 
-    def filling(
-        self, slot_materials: list[bpy.types.Material | None], user: bpy.types.Object, grids: Grids
-    ) -> Filling | None:
+    def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:
         """What the first of the materials that has a volume makes of an object's grids; None where none has.
 
         As in Cycles, an object without a material is filled only if it is a Volume.
         """
         materials = [self._override] if self._override else [each for each in slot_materials if each is not None]
         material = next((each for each in materials if _volume_input(each) is not None), None)
-        if material is None and (materials or user.type != "VOLUME"):
+        if material is None and (materials or interior.blender_object.type != "VOLUME"):
             return None
-        key = (material.as_pointer() if material else 0, grids.key)
+        volume = self._volume(material, interior) or default_volume(self._program())
+        key = (_address(material), interior.grids.key, _user_key(interior) if reads_place(volume.program) else None)
         if key not in self._fillings:
-            owner = self._owner(material, user)
-            target = material and _volume_input(material)
-            volume = node_volume(target, owner, grids.has) if target else default_volume(owner.program)
-            medium = core_medium(self._context.core, volume, owner, grids, _phase(material))
-            name = f"{material.name if material else 'none'} in {user.name}"
-            nothing = Surface.of(owner.program).core_shader(self._context.core)
+            name = f"{material.name if material else 'none'} in {interior.blender_object.name}"
+            nothing = Surface.of(self._program()).core_shader(self._context.core)
+            medium = self._medium(material, volume, interior)
             id_ = self._context.scene.add_material(name, nothing, medium=medium, has_surface=False)
-            self._fillings[key] = Filling(id_, grids.lattice(volume.grid_names))
+            lattice = interior.grids.lattice(volume.grid_names)
+            self._fillings[key] = Filling(id_, lattice, is_placed(volume.program))
         return self._fillings[key]
 
-    def _exported(self, material: bpy.types.Material | None, user: bpy.types.Object) -> _Exported:
-        key = material.as_pointer() if material else 0
+    def _exported(self, material: bpy.types.Material | None, interior: Interior) -> int:
+        user, volume = interior.blender_object, self._volume(material, interior)
+        varies = volume is not None and not volume.is_constant
+        key = (_address(material), _user_key(interior) if varies else None)
         if key not in self._materials:
+            look = self._look(material, user)
+            medium = None if volume is None else self._medium(material, volume, interior)
+            name = material.name if material else "none"
+            with naming(_where(material, user), "give its colours and numbers finite values"):
+                self._materials[key] = self._context.scene.add_material(
+                    f"{name} in {user.name}" if varies else name, look.shader, medium=medium, has_surface=look.is_there
+                )
+        return self._materials[key]
+
+    def _look(self, material: bpy.types.Material | None, user: bpy.types.Object) -> _Look:
+        key = _address(material)
+        if key not in self._looks:
             owner = self._owner(material, user)
-            has_surface = material is None or _volume_input(material) is None or _has_surface(material)
-            surface = _surface(material, owner) if has_surface else Surface.of(owner.program)
-            if material is not None and has_surface:
+            is_there = material is None or _volume_input(material) is None or _has_surface(material)
+            surface = _surface(material, owner) if is_there else Surface.of(owner.program)
+            if material is not None and is_there:
                 surface = with_ndf(surface, material, owner, self._context)
             self._warn_of_emission(surface, owner)
             with naming(owner.name, "give its colours and numbers finite values"):
                 shader = surface.core_shader(self._context.core)
-            medium = self._medium(material, user)
-            name = material.name if material else "none"
-            id_ = self._context.scene.add_material(name, shader, medium=medium, has_surface=has_surface)
-            self._materials[key] = _Exported(id_, frozenset(owner.program.attributes))
-        return self._materials[key]
+            self._looks[key] = _Look(shader, is_there, frozenset(owner.program.attributes))
+        return self._looks[key]
 
-    def _medium(self, material: bpy.types.Material | None, user: bpy.types.Object) -> Any:
-        """What meshes of a material are full of; None: nothing."""
-        target = material and _volume_input(material)
-        if not target:
-            return None
-        owner = self._owner(material, user)  # with a program of its own: what it reads are no attributes of meshes
-        return core_medium(self._context.core, node_volume(target, owner), owner, NO_GRIDS, _phase(material))
+    def _volume(self, material: bpy.types.Material | None, interior: Interior) -> Volume | None:
+        """What a material is full of; None: nothing is linked there."""
+        key = (_address(material), interior.grids.key)
+        if key not in self._volumes:
+            target = material and _volume_input(material)
+            owner = self._owner(material, interior.blender_object)  # with a program of its own: it reads no mesh
+            self._volumes[key] = node_volume(target, owner, interior.grids.has) if target else None
+        return self._volumes[key]
+
+    def _medium(self, material: bpy.types.Material | None, volume: Volume, interior: Interior) -> Any:
+        phase = material.pivot.phase if material else "HENYEY_GREENSTEIN"
+        owner = _where(material, interior.blender_object)
+        if self._world_shines:
+            report_analytic(self._context, volume, owner)
+        return core_medium(self._context, volume, owner, interior, phase)
+
+    def _program(self) -> Program:
+        return Program(self._context.core, self._context.scene, self._context.images)
 
     def _owner(self, material: bpy.types.Material | None, user: bpy.types.Object) -> Owner:
-        where = f"object '{user.name}', material '{material.name if material else 'none'}'"
-        program = Program(self._context.core, self._context.scene, self._context.images)
-        return Owner(where, self._context.reporter, program, material)
+        return Owner(_where(material, user), self._context.reporter, self._program(), material)
 
     def _warn_of_emission(self, surface: Surface, owner: Owner) -> None:
         if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and not surface.emission.is_always(0):
@@ -125,8 +170,18 @@ def _has_surface(material: bpy.types.Material) -> bool:
     return output_socket(active_tree(material), "Surface").socket.is_linked
 
 
-def _phase(material: bpy.types.Material | None) -> str:
-    return material.pivot.phase if material else "HENYEY_GREENSTEIN"
+def _address(material: bpy.types.Material | None) -> int:
+    return material.as_pointer() if material else 0
+
+
+def _user_key(interior: Interior) -> Hashable:
+    """Tells an object and what it is now from others."""
+    user = interior.blender_object
+    return user.original.as_pointer(), user.data.as_pointer()
+
+
+def _where(material: bpy.types.Material | None, user: bpy.types.Object) -> str:
+    return f"object '{user.name}', material '{material.name if material else 'none'}'"
 
 
 def _surface(material: bpy.types.Material | None, owner: Owner) -> Surface:

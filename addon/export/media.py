@@ -8,30 +8,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..report import naming
-from .grids import Grids, Lattice
-from .nodes import Owner
+from .baked import Interior, bake
+from .context import Context
+from .grids import Lattice
 from .phase import pivot_of_mean_cosine
 from .volume import Volume
-from .voxels import evaluate
 
 Array = NDArray[np.float32]
-NO_GRIDS = Grids(lambda _: None, key=None)
 _ONE_COLOUR = 1e-3  # how far apart colours may be, relative to the strongest, to be one
 
 
 def core_medium(
-    core: Any, volume: Volume, owner: Owner, grids: Grids = NO_GRIDS, phase: str = "HENYEY_GREENSTEIN"
+    context: Context, volume: Volume, owner: str, interior: Interior | None = None, phase: str = "HENYEY_GREENSTEIN"
 ) -> Any:
-    """A pivot_core.Medium, or None for a volume in which there is nothing. phase: as the Medium names it."""
-    lattice = grids.lattice(volume.grid_names)
-    with naming(owner.name, "give the colours and numbers of its volume finite values"):
-        *extinction, glow = _coefficients(volume, grids, lattice)
+    """A pivot_core.Medium, or None for a volume in which there is nothing.
+
+    owner: how reports name it. interior: of the object that it fills, where it is not constant. phase: as the Medium
+    names it.
+    """
+    core = context.core
+    lattice = interior.lattice(volume.grid_names) if interior else None
+    with naming(owner, "give the colours and numbers of its volume finite values"):
+        *extinction, glow = _coefficients(context, volume, owner, interior, lattice)
         density, colours, is_one = _factored(extinction)
         if not is_one:
-            owner.reporter.warn(f"{owner.name}: the colors of its volume vary over space, they are shown as their mean")
+            context.reporter.warn(f"{owner}: the colors of its volume vary over space, they are shown as their mean")
         if not np.any(colours) and not glow.any():
             return None
-        glows, is_pivot = lattice is not None and len(glow) > 1, phase == "PIVOT"
+        glows, is_pivot = len(glow) > 1, phase == "PIVOT"
         return core.Medium(
             scattering=[
                 (tuple(colour), pivot_of_mean_cosine(lobe.mean_cosine) if is_pivot else lobe.mean_cosine, phase)
@@ -41,19 +45,31 @@ def core_medium(
             absorption=tuple(colours[-1].tolist()),
             emission=(1.0, 1.0, 1.0) if glows else tuple(glow[0].tolist()),
             density=None if density is None else _voxel_grid(core, density, lattice),
-            emission_grid=_voxel_grid(core, glow.clip(0), lattice) if glows else None,
+            emission_grid=_voxel_grid(core, glow, lattice) if glows else None,
         )
 
 
-def _coefficients(volume: Volume, grids: Grids, lattice: Lattice | None) -> list[Array]:
+def report_analytic(context: Context, volume: Volume, owner: str) -> None:
+    """Say what the analytic integrator leaves out of a volume in a world that shines."""
+    is_analytic = context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
+    if is_analytic and not all(lobe.sigma_s.is_always(0) for lobe in volume.lobes):
+        context.reporter.warn(
+            f"{owner}: in the analytic integrator its volume scatters none of the world's light. Fix: use Monte Carlo"
+        )
+
+
+def _coefficients(
+    context: Context, volume: Volume, owner: str, interior: Interior | None, lattice: Lattice | None
+) -> list[Array]:
     """(1, 3), or (N, 3) where it varies over a lattice: sigma_s of each lobe, absorption and emission."""
     values = [*(lobe.sigma_s for lobe in volume.lobes), volume.absorption, volume.emission]
-    names = [name for name in volume.grid_names if grids.has(name)]
-    tables = {name: grids.found[name].at(lattice) for name in names} if lattice else {}
-    count = lattice.count if lattice else 1
-    made = evaluate(volume.program, values, tables, count)
-    flat = [each[:1] if value.is_constant else each for value, each in zip(values, made, strict=True)]
-    return [each * np.float32(grids.density_scale) for each in flat]
+    if interior is None or lattice is None:
+        scale, made = 1.0, [np.array([value.typical()], np.float32) for value in values]
+    else:
+        scale, made = interior.grids.density_scale, bake(context, volume.program, values, lattice, interior, owner)
+        if interior.mesh is not None:  # which bounds what turns out to be the same everywhere
+            made = [each[:1] if (each == each[0]).all() else each for each in made]
+    return [each * np.float32(scale) for each in made]
 
 
 def _factored(parts: list[Array]) -> tuple[NDArray[np.float64] | None, NDArray[np.float64], bool]:

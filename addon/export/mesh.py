@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
@@ -26,6 +26,29 @@ class MeshArrays:
     corner_normals: NDArray[np.float32] | None  # (C, 3), unit; 0: the triangle's own
     vertex_normals: NDArray[np.float32] | None  # (V, 3), unit, where no corner has its own; without both: flat
     triangle_slots: NDArray[np.int32] | None  # (T,); None: all 0
+
+    def parted(self, slots_apart: frozenset[int], last_slot: int) -> list[tuple[MeshArrays, bool]]:
+        """The triangles of the slots apart and the others, where there are any, and whether they are apart.
+
+        A slot past the last stands for it.
+        """
+        if not slots_apart:
+            return [(self, False)]
+        slots = np.zeros(1, np.int32) if self.triangle_slots is None else self.triangle_slots.clip(max=last_slot)
+        is_apart = np.isin(slots, list(slots_apart))
+        if is_apart.all() or not is_apart.any():
+            return [(self, bool(is_apart[0]))]
+        return [
+            (
+                replace(
+                    self,
+                    triangle_corners=self.triangle_corners[is_apart == part],
+                    triangle_slots=slots[is_apart == part],
+                ),
+                part,
+            )
+            for part in (False, True)
+        ]
 
 
 @contextmanager

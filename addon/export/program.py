@@ -28,16 +28,6 @@ class Register(NamedTuple):
 Part = float | Register
 
 
-class Step(NamedTuple):
-    """An op that the program runs."""
-
-    op: str
-    inputs: tuple[Part, ...]
-    settings: tuple[float, ...]
-    reads_image: bool
-    outputs: tuple[Register, ...]
-
-
 @dataclass(frozen=True)
 class Value:
     """A number, or a colour or vector: one part or three, each a number or a register."""
@@ -147,7 +137,6 @@ class Program:
         self.program = core.Program()
         self.attributes: set[str] = set()  # that the meshes of this material must have
         self.ops: dict[str, tuple[int, int, bool]] = core.ops()
-        self.steps: list[Step] = []
         self._results: dict[Any, tuple[Part, ...]] = {}  # of ops, by all that they depend on
 
     def number(self, number: float) -> Value:
@@ -194,9 +183,7 @@ class Program:
                 numbers = [(part.index, 0.0) if isinstance(part, Register) else (-1, part) for part in parts]
                 extra = {} if image is None else {"image": image}
                 first = self.program.add(name, numbers, list(settings), neighbour, **extra)
-                outputs = tuple(Register(first + i) for i in range(output_count))
-                self.steps.append(Step(name, tuple(parts), settings, image is not None, outputs))
-                self._results[key] = outputs
+                self._results[key] = tuple(Register(first + i) for i in range(output_count))
         return Value(self._results[key], self)
 
     def each(self, name: str, *inputs: Value | float) -> Value:

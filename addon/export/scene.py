@@ -13,12 +13,14 @@ import numpy as np
 
 from ..report import RenderError, Reporter, naming
 from .attributes import is_of_mesh, mesh_attributes, object_attributes
+from .baked import Interior
 from .census import report_left_out
 from .context import Context
+from .grids import NO_GRIDS, Grids
 from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
-from .material import MaterialTable
+from .material import MaterialTable, Slots
 from .mesh import edits_applied, mesh_arrays
 from .smoke import has_smoke, smoke_domain, smoke_grids
 from .volume_object import box_arrays, density_scale, volume_grids
@@ -39,11 +41,16 @@ class _Group:
     color: tuple[float, float, float, float]
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
+    is_placed: bool  # what fills it is as its first instance has it
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
 
 
 def _group_of(
-    blender_object: bpy.types.Object, mesh: int, materials: tuple[int, ...], reads: frozenset[str] = frozenset()
+    blender_object: bpy.types.Object,
+    mesh: int,
+    materials: tuple[int, ...],
+    is_placed: bool,
+    reads: frozenset[str] = frozenset(),
 ) -> _Group:
     return _Group(
         name=blender_object.name,
@@ -53,7 +60,16 @@ def _group_of(
         color=tuple(blender_object.color),
         pass_index=blender_object.pass_index,
         reads=reads,
+        is_placed=is_placed,
     )
+
+
+def _interior(
+    blender_object: bpy.types.Object, mesh: bpy.types.Mesh | None, told: Instances, index: int, grids: Grids
+) -> Interior:
+    """As the instance of this index has it."""
+    [random] = told.random_of(blender_object.name, [index])
+    return Interior(blender_object, mesh, told.object_to_world[index], float(random), grids)
 
 
 def export_scene(
@@ -71,8 +87,8 @@ def export_scene(
     images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
     context = Context(core, core.Scene(), depsgraph, reporter, images)
     _report_settings(context)
-    export_world(context)
-    _Exporter(context, check_cancel).export_objects()
+    world_shines = export_world(context)
+    _Exporter(context, check_cancel, world_shines).export_objects()
     return context
 
 
@@ -92,12 +108,13 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 
 class _Exporter:
-    def __init__(self, context: Context, check_cancel: Callable[[], None]) -> None:
+    def __init__(self, context: Context, check_cancel: Callable[[], None], world_shines: bool) -> None:
         self._context = context
         self._check_cancel = check_cancel
-        self._materials = MaterialTable(context)
-        self._meshes: dict[tuple[int, frozenset[str]], int] = {}  # by the evaluated data's address, and what is read
-        self._groups: dict[tuple[Any, ...], _Group | None] = {}  # by the original object and the evaluated data
+        self._materials = MaterialTable(context, world_shines)
+        # By the evaluated data's address, what is read, and the slots whose faces rays pass.
+        self._meshes: dict[tuple[int, frozenset[str], frozenset[int]], list[tuple[int, bool]]] = {}
+        self._groups: dict[tuple[Any, ...], list[_Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
 
@@ -112,97 +129,124 @@ class _Exporter:
             if blender_object.type == "LIGHT":
                 export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
             elif layer.use_solid and blender_object.type == "MESH":
-                group = self._group(blender_object, instance)
-                if group is not None:
+                for group in self._mesh_groups(blender_object, instance, told, index):
                     self._instances[group].append(index)
                     if "particle:" in group.reads:
                         self._particles[group].append(particle_index(instance))
             elif layer.use_volumes and blender_object.type == "VOLUME":
-                group = self._volume_group(blender_object, told.object_to_world[index])
-                if group is not None:
+                for group in self._volume_groups(blender_object, told, index):
                     self._instances[group].append(index)
             elif layer.use_solid and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
         for group, indices in self._instances.items():
+            if group.is_placed and len(indices) > 1:
+                self._context.reporter.warn(
+                    f"object '{group.name}': its volume depends on where it is, its instances are filled as the first"
+                )
             self._add_instances(group, indices, told)
 
-    def _group(self, blender_object: bpy.types.Object, instance: Any) -> _Group | None:
-        """What a mesh object shares with its like; None where there is nothing to see."""
+    def _mesh_groups(
+        self, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
+    ) -> list[_Group]:
+        """What a mesh object shares with its like: none where there is nothing to see, two where rays pass a part."""
         key = (blender_object.original.as_pointer(), blender_object.data.as_pointer())
         if key not in self._groups:
             self._check_cancel()
-            self._groups[key] = self._make_group(blender_object)
-        group = self._groups[key]
-        if group is None or all(is_of_mesh(name) for name in group.reads):
-            return group
+            self._groups[key] = self._make_mesh_groups(blender_object, told, index)
+        groups = self._groups[key]
+        reads = frozenset().union(*(group.reads for group in groups))
+        if all(is_of_mesh(name) for name in reads):
+            return groups
         instancer = instance.parent if instance.is_instance else None
-        attributes = object_attributes(group.reads, blender_object, instancer, self._context.depsgraph)
-        return replace(group, attributes=tuple(attributes.items()))
+        attributes = object_attributes(reads, blender_object, instancer, self._context.depsgraph)
+        return [replace(group, attributes=tuple(attributes.items())) for group in groups]
 
-    def _make_group(self, blender_object: bpy.types.Object) -> _Group | None:
+    def _make_mesh_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
         with edits_applied(blender_object) as mesh:
             if not len(mesh.polygons):
-                return None
+                return []
             report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
             slot_materials = [slot.material for slot in blender_object.material_slots]
             domain = smoke_domain(blender_object)
+            grids = NO_GRIDS if domain is None else smoke_grids(blender_object, domain)
+            interior = _interior(blender_object, mesh, told, index, grids)
             if domain is not None:
-                return self._smoke_group(blender_object, mesh, domain, slot_materials)
-            materials, attributes = self._materials.slots(slot_materials, blender_object)
-            return _group_of(blender_object, self._mesh(blender_object, mesh, attributes), materials, attributes)
+                return self._smoke_groups(interior, domain, slot_materials)
+            slots = self._materials.slots(slot_materials, interior)
+            return [
+                _group_of(
+                    blender_object,
+                    part,
+                    slots.ids_without_surface() if is_passed else slots.ids,
+                    slots.is_placed,
+                    slots.attributes,
+                )
+                for part, is_passed in self._core_meshes(blender_object, mesh, slots)
+            ]
 
-    def _smoke_group(
-        self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, domain: Any, slot_materials: list[Any]
-    ) -> _Group | None:
+    def _smoke_groups(self, interior: Interior, domain: Any, slot_materials: list[Any]) -> list[_Group]:
         """A domain as Cycles has it: its volume within its mesh, and no surface."""
         if not self._context.depsgraph.view_layer_eval.use_volumes:
-            return None
-        frame = self._context.depsgraph.scene_eval.frame_current
+            return []
+        blender_object, frame = interior.blender_object, self._context.depsgraph.scene_eval.frame_current
         if not has_smoke(domain, frame):
             self._warn(
                 blender_object,
                 f"it has no smoke at frame {frame} and is left out. Fix: bake it, or play it from its start",
             )
-            return None
-        filling = self._materials.filling(slot_materials, blender_object, smoke_grids(blender_object, domain))
+            return []
+        filling = self._materials.filling(slot_materials, interior)
         if filling is None:
-            return None
-        materials = (filling.id,) * max(1, len(slot_materials))
-        return _group_of(blender_object, self._mesh(blender_object, mesh, frozenset()), materials)
+            return []
+        slots = Slots((filling.id,), frozenset(), frozenset(), filling.is_placed)
+        [(core_mesh, _)] = self._core_meshes(blender_object, interior.mesh, slots)
+        return [_group_of(blender_object, core_mesh, slots.ids, slots.is_placed)]
 
-    def _volume_group(self, blender_object: bpy.types.Object, object_to_world: Any) -> _Group | None:
-        """The box around a Volume object's grids; None where there is nothing to see."""
-        scale = round(density_scale(blender_object.data, object_to_world), 6)
+    def _volume_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
+        """The box around a Volume object's grids; none where there is nothing to see."""
+        scale = round(density_scale(blender_object.data, told.object_to_world[index]), 6)
         key = (blender_object.original.as_pointer(), blender_object.data.as_pointer(), scale)
         if key not in self._groups:
             self._check_cancel()
-            self._groups[key] = self._make_volume_group(blender_object, scale)
+            self._groups[key] = self._make_volume_groups(blender_object, scale, told, index)
         return self._groups[key]
 
-    def _make_volume_group(self, blender_object: bpy.types.Object, scale: float) -> _Group | None:
+    def _make_volume_groups(
+        self, blender_object: bpy.types.Object, scale: float, told: Instances, index: int
+    ) -> list[_Group]:
         name, reporter = f"object '{blender_object.name}'", self._context.reporter
         for described in (blender_object, blender_object.data):
             report_left_out(described, name, reporter)
         grids = volume_grids(blender_object, scale, reporter)
+        if grids is None:
+            return []
         slot_materials = [slot.material for slot in blender_object.material_slots]
-        filling = self._materials.filling(slot_materials, blender_object, grids) if grids else None
+        interior = _interior(blender_object, None, told, index, grids)
+        filling = self._materials.filling(slot_materials, interior)
         if filling is None or filling.lattice is None:  # Cycles, too, makes a volume only where it reads a grid
-            return None
+            return []
         mesh = self._context.scene.add_mesh(blender_object.name, **box_arrays(filling.lattice))
-        return _group_of(blender_object, mesh, (filling.id,))
+        return [_group_of(blender_object, mesh, (filling.id,), filling.is_placed)]
 
-    def _mesh(self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, attributes: frozenset[str]) -> int:
-        """The core's mesh of an object's evaluated mesh. mesh: that, with what is edited in Edit Mode."""
-        names = frozenset(filter(is_of_mesh, attributes))
-        key = (blender_object.data.as_pointer(), names)
+    def _core_meshes(
+        self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, slots: Slots
+    ) -> list[tuple[int, bool]]:
+        """The core's mesh of an object's evaluated mesh, and whether rays pass it: in two where they pass some faces.
+
+        The core lets rays pass all of an instance's faces or none. mesh: that, with what is edited in Edit Mode.
+        """
+        names = frozenset(filter(is_of_mesh, slots.attributes))
+        key = (blender_object.data.as_pointer(), names, slots.without_surface)
         if key not in self._meshes:
             fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"
             with naming(f"object '{blender_object.name}'", fix):
                 arrays = mesh_arrays(mesh)
-                self._meshes[key] = self._context.scene.add_mesh(
-                    blender_object.name, **vars(arrays), **vars(mesh_attributes(mesh, arrays, names))
-                )
+                attributes = vars(mesh_attributes(mesh, arrays, names))
+                self._meshes[key] = [
+                    (self._context.scene.add_mesh(blender_object.name, **vars(part), **attributes), is_passed)
+                    for part, is_passed in arrays.parted(slots.without_surface, last_slot=len(slots.ids) - 1)
+                ]
         return self._meshes[key]
 
     def _add_instances(self, group: _Group, indices: list[int], told: Instances) -> None:

@@ -11,7 +11,6 @@ import bpy
 from .nodes import Owner, Socket, colour, is_linked, number, output_socket, source
 from .phase import bounded, draine_mean_cosine, henyey_greenstein_of_backscatter, mie_lobes
 from .program import Program, Value
-from .voxels import is_of_grids
 
 _HasGrid = Callable[[str], bool]
 
@@ -24,7 +23,7 @@ class Lobe:
 
 @dataclass(frozen=True)
 class Volume:
-    """What a pivot_core.Medium is made of. Values are numbers, or what a program makes of grids."""
+    """What a pivot_core.Medium is made of. Values are numbers, or what a program makes of grids and places."""
 
     lobes: tuple[Lobe, ...]
     absorption: Value  # 1/m
@@ -39,6 +38,12 @@ class Volume:
     @property
     def program(self) -> Program:
         return self.absorption.program
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is the same everywhere, and in all objects."""
+        values = (*(lobe.sigma_s for lobe in self.lobes), self.absorption, self.emission)
+        return all(value.is_constant for value in values)
 
     @property
     def grid_names(self) -> frozenset[str]:
@@ -118,7 +123,9 @@ class _Reader:
         self.owner.warn(feed.node, text)
 
     def _settled(self, value: Value, feed: Socket, target: Socket) -> Value:
-        return value if is_of_grids(value) else self._mean(value, feed, target)
+        """A world has no bounds within which to know what varies."""
+        is_world = isinstance(self.owner.data, bpy.types.World)
+        return self._mean(value, feed, target) if is_world and not value.is_constant else value
 
     def _mean(self, value: Value, feed: Socket, target: Socket) -> Value:
         self.warn(feed, f"{target.socket.name} varies over space, it is shown as its mean")

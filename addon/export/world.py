@@ -7,7 +7,7 @@ import bpy
 from ..report import naming
 from .census import report_left_out
 from .context import Context
-from .media import core_medium
+from .media import core_medium, report_analytic
 from .nodes import Owner, active_tree
 from .program import Program
 from .shader import light_emission
@@ -15,13 +15,13 @@ from .surface import Surface
 from .volume import node_volume, output_volume
 
 
-def export_world(context: Context) -> None:
-    """Set the core's world, and what fills it, to that of the view layer."""
+def export_world(context: Context) -> bool:
+    """Set the core's world, and what fills it, to that of the view layer. Returns whether it shines."""
     view_layer = context.depsgraph.view_layer_eval
     world: bpy.types.World | None = getattr(view_layer, "world_override", None) or context.depsgraph.scene_eval.world
     if world is None or not view_layer.use_sky:
         context.scene.set_world(radiance=(0.0, 0.0, 0.0))
-        return
+        return False
     owner = f"world '{world.name}'"
     report_left_out(world, owner, context.reporter)
     tree = active_tree(world)
@@ -30,7 +30,9 @@ def export_world(context: Context) -> None:
         radiance = program.colour(world.color)
     else:
         radiance = light_emission(tree, Owner(owner, context.reporter, program, world))
-        _set_medium(context, tree, owner, world)
+    shines = not radiance.is_always(0)
+    if tree is not None:
+        _set_medium(context, tree, owner, world, shines)
     with naming(owner, "give its colour and strength finite values"):
         if radiance.is_constant:
             context.scene.set_world(radiance=radiance.numbers)
@@ -40,10 +42,15 @@ def export_world(context: Context) -> None:
                     f"{owner}: in the analytic integrator it lights by its mean. Fix: use Monte Carlo"
                 )
             context.scene.set_world_shader(Surface.of(program, emission=radiance).core_shader(context.core))
+    return shines
 
 
-def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World) -> None:
+def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World, shines: bool) -> None:
     target = output_volume(tree)
-    if target is not None:
-        owner = Owner(name, context.reporter, Program(context.core, context.scene, context.images), world)
-        context.scene.set_world_medium(core_medium(context.core, node_volume(target, owner), owner))
+    if target is None:
+        return
+    owner = Owner(name, context.reporter, Program(context.core, context.scene, context.images), world)
+    volume = node_volume(target, owner)
+    if shines:
+        report_analytic(context, volume, name)
+    context.scene.set_world_medium(core_medium(context, volume, name))

@@ -100,6 +100,16 @@ def test_what_has_a_surface(media: dict[str, Any], cases: Any) -> None:
     check(media["milky"], (COLOR, 0, HG))
 
 
+def test_faces_without_a_surface_are_apart_from_those_with_one(cases: Any) -> None:
+    """An instance is passed by rays only if none of its materials has a surface."""
+    mixed, alone, beyond = cases["slots"]
+    seen, passed = mixed
+    assert seen == {"materials": ["grey", "milky", "clear"], "slots": [0, 0, 1, 1], "triangles": 4}
+    assert passed == {"materials": ["clear"] * 3, "slots": [2, 2], "triangles": 2}
+    assert [part["materials"] for part in alone] == [["clear"] * 3]
+    assert [(part["materials"][-1], part["triangles"]) for part in beyond] == [("clear", 4), ("clear", 2)]
+
+
 def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any) -> None:
     said: dict[str, list[str]] = {}
     for report in cases["reports"]:
@@ -109,7 +119,7 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         said.setdefault(found[2], []).append(found[3])
     expected = {
         "bright": ["a Color above 1 is not supported, it absorbs nothing"],
-        "noisy": [f"{name} varies over space, it is shown as its mean" for name in ("Density", "Anisotropy")],
+        "noisy": ["Anisotropy varies over space, it is shown as its mean"],
         "surface": ["Diffuse BSDF is not supported in a volume, it is left out"],
     }
     if host.version >= (4, 3):
@@ -117,6 +127,15 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
             said_of = [f"Phase {phase} is not supported, it is shown as Henyey-Greenstein"]
             expected[phase.upper().replace("-", "_")] = said_of
     assert said == expected
+
+
+def test_the_world_lights_no_fog_in_the_analytic_integrator_which_is_said(cases: Any) -> None:
+    dark, lit = cases["analytic"]
+    assert dark == []
+    assert lit == [
+        "Pivot: object 'scatter quad', material 'scatter': in the analytic integrator its volume scatters none of the "
+        "world's light. Fix: use Monte Carlo"
+    ]
 
 
 def test_worlds(cases: Any) -> None:

@@ -36,7 +36,9 @@ def test_mean_radiance_is_cycles(rendered: Rendered) -> None:
 
 
 def test_every_kind_of_fog_is_compared(rendered: Rendered, host: Host) -> None:
-    assert {"scatter", "scatter_3", "absorption", "principled_2", "world_fog"} <= set(rendered.scenes)
+    assert {"scatter", "scatter_3", "absorption", "principled_2", "world_fog", "noise_1", "room"} <= set(
+        rendered.scenes
+    )
     assert ("two_lobes_1" in rendered.scenes) == (host.version >= (4, 3))
     if not host.kind.startswith("bpy"):
         assert "smoke" in rendered.scenes

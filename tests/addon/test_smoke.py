@@ -91,8 +91,17 @@ def test_nodes_reckon_with_grids(cases: Any, density: np.ndarray) -> None:
     np.testing.assert_allclose(sigma_s(medium(cases, "attribute")), expected, atol=1e-5)
 
 
+def test_textures_multiply_grids(cases: Any, density: np.ndarray) -> None:
+    count = density.shape[2]
+    x = (np.arange(count) + 0.5) / count * 4 - 2
+    expected = (density * x.clip(0))[..., None] * COLOR
+    assert expected.max() > 0.1
+    np.testing.assert_allclose(sigma_s(medium(cases, "textured")), expected, atol=1e-5)
+    assert cases["textured"]["reports"] == []
+
+
 def test_a_domain_has_no_surface(cases: Any) -> None:
-    for name in ("plain", "fire", "colored", "info", "attribute"):
+    for name in ("plain", "fire", "colored", "info", "attribute", "textured"):
         assert cases[name]["without_surface"] == [f"{name} in domain"]
         assert cases[name]["instances"] == {"domain": [f"{name} in domain"]}
 

@@ -33,7 +33,7 @@ def _box() -> Any:
 def _baked(cube: Any, kind: str, output: str | int, settings: dict[str, Any], expected: Any) -> Any:
     """kind, output, settings: of a node. expected: of points in object and world space."""
     from pivot.core import load
-    from pivot.export.baked import bake
+    from pivot.export.baked import Interior, bake
     from pivot.export.context import Context
     from pivot.export.images import ImageCache, ImageTable
     from pivot.export.nodes import Owner, Socket, colour, number
@@ -56,7 +56,14 @@ def _baked(cube: Any, kind: str, output: str | int, settings: dict[str, Any], ex
     value = (number if is_number else colour)(Socket(target), Owner("cloud", reporter, program, material))
     evaluated = cube.evaluated_get(depsgraph)
     to_world = np.array(cube.matrix_world, np.float32)
-    grid = bake(context, program, value, evaluated, to_world, "object 'cloud'", random=0.375)
+    interior = Interior(evaluated, evaluated.data, to_world, 0.375)
+    lattice = interior.lattice(frozenset())
+    [baked] = bake(context, program, [value], lattice, interior, "object 'cloud'")
+    x, y, z = lattice.size
+    grid = core.VoxelGrid(
+        baked.reshape(z, y, x, -1).squeeze(-1) if is_number else baked.reshape(z, y, x, 3),
+        lattice.grid_from_object.astype(np.float32),
+    )
 
     points = np.random.default_rng(1).uniform((1, 0, -0.5), (5, 2, 0.25), (200, 3)).astype(np.float32)
     world = points @ to_world[:3, :3].T + to_world[:3, 3]

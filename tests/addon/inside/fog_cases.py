@@ -26,6 +26,8 @@ def main(folder: Path) -> Any:
         "media": {name: medium and asdict(medium) for name, medium in recording.media.items()},
         "without_surface": sorted(recording.without_surface),
         "reports": recording.reports,
+        "slots": [_slots(*slots) for slots in ((0, 1, 2), (2, 2, 2), (0, 0, 7))],
+        "analytic": [_analytic(*radiance) for radiance in ((0, 0, 0), (0, 0, 1))],
         "worlds": [_world(surface) for surface in (True, False)],
         "cosines": _mean_cosines(),
     }
@@ -104,9 +106,48 @@ def _phases() -> None:
 def _reported() -> None:
     noisy = fog("noisy", "ShaderNodeVolumeScatter", Color=COLOR)
     noise = noisy.id_data.nodes.new("ShaderNodeTexNoise")
-    noisy.id_data.links.new(noise.outputs[0], noisy.inputs["Density"])
     noisy.id_data.links.new(noise.outputs[0], noisy.inputs["Anisotropy"])
     fog("surface", "ShaderNodeBsdfDiffuse")
+
+
+def _slots(*slots: int) -> Any:
+    """A strip of faces of these slots: a surface, fog with one, and fog without. What is exported of each part."""
+    parts.clear()
+    parts.camera()
+    mesh = bpy.data.meshes.new("strip")
+    corners = [(x, y, 0) for x in range(4) for y in range(2)]
+    mesh.from_pydata(corners, [], [(2 * x, 2 * x + 2, 2 * x + 3, 2 * x + 1) for x in range(3)])
+    parts.link("strip", mesh)
+    parts.shaded("grey", "ShaderNodeBsdfDiffuse")
+    fog("clear", "ShaderNodeVolumeScatter")
+    milky = fog("milky", "ShaderNodeVolumeScatter").id_data
+    diffuse = milky.nodes.new("ShaderNodeBsdfDiffuse")
+    milky.links.new(diffuse.outputs[0], milky.nodes["Material Output"].inputs["Surface"])
+    for name in ("grey", "milky", "clear"):
+        mesh.materials.append(bpy.data.materials[name])
+    mesh.polygons.foreach_set("material_index", slots)
+    recording = record()
+    strips = [group for group in recording.instances if group.name == "strip"]
+    arrays = [recording.meshes[group.mesh] for group in strips]
+    return [
+        {
+            "materials": group.materials,
+            "slots": None if mesh.triangle_slots is None else mesh.triangle_slots.tolist(),
+            "triangles": len(mesh.triangle_corners),
+        }
+        for group, mesh in zip(strips, arrays, strict=True)
+    ]
+
+
+def _analytic(*radiance: float) -> list[str]:
+    """What is said of fog that scatters, and of fog that does not, in a world of this light."""
+    parts.clear()
+    parts.camera()
+    parts.world(radiance)
+    fog("scatter", "ShaderNodeVolumeScatter")
+    fog("absorption", "ShaderNodeVolumeAbsorption")
+    bpy.context.scene.pivot.integrator = "ANALYTIC"
+    return record().reports
 
 
 def _world(has_surface: bool) -> Any:

@@ -107,6 +107,38 @@ def _world_fog(scratch: Path) -> Any:
     return tree.links.new(node.outputs[0], output.inputs["Volume"])
 
 
+def _noise(scratch: Path) -> Any:
+    """Noise through a ramp, as fog and as a glow, in the sum of two shaders."""
+    _scene()
+    material = _box(
+        ("VolumePrincipled", {"Color": COLOR, "Anisotropy": 0.4}), ("Emission", {"Color": (0.1, 0.3, 0.2, 1)})
+    )
+    tree = material.node_tree
+    texture, ramp = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexNoise", "ValToRGB"))
+    texture.inputs["Scale"].default_value, texture.inputs["Detail"].default_value = 3, 1
+    for stop, (place, value) in zip(ramp.color_ramp.elements, ((0.4, 0), (0.7, 5)), strict=True):
+        stop.position, stop.color = place, (value, value, value, 1)
+    tree.links.new(texture.outputs[0], ramp.inputs[0])
+    tree.links.new(ramp.outputs[0], tree.nodes["Principled Volume"].inputs["Density"])
+    return tree.links.new(texture.outputs[0], tree.nodes["Emission"].inputs["Strength"])
+
+
+def _room(scratch: Path) -> Any:
+    """Mist on the ground of a box with all in it, the camera too, thinner with height."""
+    _scene()
+    material = _box(("VolumeScatter", {"Color": (0.9, 0.8, 0.7, 1)}))
+    room, tree = bpy.context.object, material.node_tree
+    room.scale, room.location = (8, 10, 5), (0, 0, 3)
+    coordinates, height, fall = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "SeparateXYZ", "MapRange")
+    )
+    for name, value in (("From Min", -0.45), ("From Max", 0.3), ("To Min", 0.1), ("To Max", 0)):
+        fall.inputs[name].default_value = value
+    tree.links.new(coordinates.outputs["Object"], height.inputs[0])
+    tree.links.new(height.outputs["Z"], fall.inputs[0])
+    return tree.links.new(fall.outputs[0], tree.nodes["Volume Scatter"].inputs["Density"])
+
+
 def _cloud(scratch: Path) -> Any:
     """An OpenVDB file of few voxels, where this Blender's Python writes and reads them."""
     vdb = sys.modules["pivot.export.vdb"].openvdb_module()
@@ -154,6 +186,8 @@ SCENES: tuple[tuple[Callable[[Path], Any], int], ...] = (
     (_principled, 2),
     (_two_lobes, 1),
     (_world_fog, 0),
+    (_noise, 1),
+    (_room, 0),
     (_cloud, 0),
     (_smoke, 0),
 )
@@ -165,7 +199,7 @@ def _render(path: Path, engine: str, bounces: int) -> None:
     cycles = scene.cycles
     for limit in ("max", "diffuse", "glossy", "volume"):
         setattr(cycles, f"{limit}_bounces", bounces)
-    cycles.sample_clamp_indirect, cycles.blur_glossy, cycles.volume_step_rate = 0, 0, 0.5
+    cycles.sample_clamp_indirect, cycles.blur_glossy, cycles.volume_step_rate = 0, 0, 0.2
     if hasattr(cycles, "volume_biased"):  # from Blender 5.0
         cycles.volume_biased = False
     parts.render_steady(path, engine, SAMPLES[engine], filter_px=1.0)

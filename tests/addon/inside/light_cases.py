@@ -87,8 +87,6 @@ def _reports() -> Any:
     _masks()
     world = parts.world((1, 1, 1))
     world.cycles_visibility.camera = False
-    volume = world.node_tree.nodes.new("ShaderNodeVolumeScatter")
-    world.node_tree.links.new(volume.outputs[0], world.node_tree.nodes["World Output"].inputs["Volume"])
     parts.quad("panel", material=parts.shaded("glow", "ShaderNodeEmission")[0])
     parts.quad("second panel", material=bpy.data.materials["glow"])
     bpy.context.scene.pivot.integrator = "ANALYTIC"

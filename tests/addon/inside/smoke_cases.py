@@ -30,7 +30,7 @@ def main(folder: Path) -> Any:
             "color": np.array(settings.color_grid).tolist(),
             "temperature": np.array(settings.temperature_grid).tolist(),
         }
-        for make in (_plain, _fire, _colored, _info, _attribute, _unlit):
+        for make in (_plain, _fire, _colored, _info, _attribute, _textured, _unlit):
             material = make()
             domain.data.materials.clear()
             if material:
@@ -108,6 +108,16 @@ def _attribute() -> Any:
     tree.links.new(read.outputs["Fac"], half.inputs[0])
     tree.links.new(half.outputs[0], scatter.inputs["Density"])
     tree.links.new(scatter.outputs[0], tree.nodes["Material Output"].inputs["Volume"])
+    return material
+
+
+def _textured() -> Any:
+    """The density times the object's own x."""
+    material = principled("textured", Color=COLOR)
+    tree = material.node_tree
+    coordinates, parts_of = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexCoord", "SeparateXYZ"))
+    tree.links.new(coordinates.outputs["Object"], parts_of.inputs[0])
+    tree.links.new(parts_of.outputs["X"], tree.nodes["Principled Volume"].inputs["Density"])
     return material
 
 
