@@ -1,6 +1,7 @@
 #include "core/integrators/fog_lamp.h"
 
 #include "core/media/phase_over_cap.h"
+#include "core/sampling/warp.h"
 
 namespace pivot {
 namespace {
@@ -80,24 +81,22 @@ Vec3b scattered_of_cap(const FogPart& part, const Cap<Batch>& cap, bool precisel
 Batch mean_falloff(const SpotLight& spot, const FogPart& part, const Cap<Batch>& cap, bool precisely) {
     const auto falloff = [&](const Vec3b& wi) { return spot_falloff(spot, -dot(wi, broadcast(spot.direction))); };
     const Frame<Batch> frame = frame_from_z(cap.axis);
+    // Beside the lamp a beam is a small part of what it covers.
+    const std::size_t count = !precisely ? 4 : any(cap.versine > Batch(0.02f)) ? 128 : 16;
     Batch sum(0.0f), weights(0.0f);
-    const auto add = [&](const auto& rule) {
-        for (const Vec2f& xy : rule) {
-            const Batch versine = cap.versine * Batch(dot(xy, xy));
-            const Batch radius = safe_sqrt(cap.versine * (Batch(2.0f) - versine));
-            const Vec3b wi = frame.to_world({Batch(xy.x) * radius, Batch(xy.y) * radius, Batch(1.0f) - versine});
-            const Vec3b direction = broadcast(part.ray.ray().direction);
-            Batch weight(0.0f);
-            for (const ScatterLobe& lobe : part.mix.lobes)
-                weight += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, direction, wi);
-            sum += weight * falloff(wi);
-            weights += weight;
-        }
-    };
-    if (precisely)
-        add(disk_rule<float, 16>());
-    else
-        add(disk_rule<float, 4>());
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec2f u = golden_point(static_cast<float>(k), count);
+        const Batch versine = cap.versine * Batch(u.x);
+        const Batch radius = safe_sqrt(versine * (Batch(2.0f) - versine));
+        const float angle = 2.0f * pi<float> * u.y;
+        const Vec3b wi =
+            frame.to_world({Batch(std::cos(angle)) * radius, Batch(std::sin(angle)) * radius, Batch(1.0f) - versine});
+        Batch weight(0.0f);
+        for (const ScatterLobe& lobe : part.mix.lobes)
+            weight += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, broadcast(part.ray.ray().direction), wi);
+        sum += weight * falloff(wi);
+        weights += weight;
+    }
     return sum / max(weights, tiny<Batch>);
 }
 

@@ -131,14 +131,14 @@ def test_the_pivot_phase_function_scatters_as_it_says(light: str, g_p: float) ->
 @pytest.mark.parametrize("light", LIGHTS)
 def test_all_ways_to_sample_light_agree(light: str, mode: str) -> None:
     fog, eye = replace(CYAN, g=0.6), PLACES["from without"][0]
-    found = estimate(scene_of([fog], [LIGHTS[light]]), eye, TARGETS[0], samples=256, light_sampling=mode)
+    found = estimate(scene_of([fog], [LIGHTS[light]]), eye, TARGETS[0], samples=64, light_sampling=mode)
     assert_is(found, radiance(eye, TARGETS[0], [fog], [LIGHTS[light]]))
 
 
 def test_samples_of_the_phase_function_alone_find_the_same() -> None:
     """They meet large lights only."""
     light, fog = Sphere((0.3, 2.5, 0.9), 1.2, (3.0, 2.0, 1.0)), replace(CYAN, g=0.6)
-    found = estimate(scene_of([fog], [light]), (-0.2, -3.0, 0.2), TARGETS[0], samples=256, light_sampling="BSDF")
+    found = estimate(scene_of([fog], [light]), (-0.2, -3.0, 0.2), TARGETS[0], samples=64, light_sampling="BSDF")
     assert_is(found, radiance((-0.2, -3.0, 0.2), TARGETS[0], [fog], [light]))
 
 
