@@ -18,6 +18,26 @@ struct FogVertex {
     std::uint32_t sample;
 };
 
+/// The sampler's dimensions that media take of a bounce, past those of surfaces.
+struct FogDimensions {
+    std::uint32_t base;
+
+    explicit FogDimensions(std::uint32_t bounce) : base((1u << 16) + bounce * (8 + 3 * max_lamp_samples)) {}
+
+    std::uint32_t collision() const { return base; }
+    std::uint32_t lobe() const { return base + 1; }
+    std::uint32_t direction() const { return base + 2; }
+    std::uint32_t lamp_choice() const { return base + 3; }
+    std::uint32_t triangle_choice() const { return base + 4; }
+    std::uint32_t triangle_place() const { return base + 5; }
+    std::uint32_t world() const { return base + 6; }
+    std::uint32_t survival() const { return base + 7; }
+    std::uint32_t lamp(std::uint32_t place) const { return base + 8 + 3 * place; }  ///< three
+};
+
+/// Densities may underflow.
+inline bool is_usable(float pdf) { return pdf > 0.0f && std::isfinite(pdf); }
+
 class Fog {
    public:
     /// fog_sample: added to a path's sample where it first scatters in fog, so that its light is counted apart.
@@ -55,6 +75,7 @@ class Fog {
         std::uint32_t bounce, sample, dimension;
     };
 
+    // fog_lamp_samples.cpp
     void sample_lamps(std::uint32_t bounce, const Path& path);
     void add_candidates(const Light& lamp, const Path& path);
     void sample_candidates(std::span<const Candidate> candidates, std::uint32_t bounce, const Path& path, float weight,
@@ -66,6 +87,7 @@ class Fog {
     void sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,
                       const Path& path, std::uint32_t dimension);
     std::pair<std::size_t, float> choose_lamp(float u, float u_place);
+    // fog.cpp
     Rgb sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream);
     Rgb sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided);
     void sample_shining(const FogVertex& vertex, std::uint32_t bounce);

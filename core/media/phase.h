@@ -43,6 +43,13 @@ inline Vec2f sample_cosine(const Phase& phase, float xi) {
     return {1.0f, 0.0f};
 }
 
+/// A direction in proportion to the phase function about that of travel.
+inline Vec3f sample(const Phase& phase, const Vec3f& direction, const Vec2f& u) {
+    const Vec2f cosine = sample_cosine(phase, u.x);
+    const float angle = 2.0f * pi<float> * u.y;
+    return frame_from_z(direction).to_world({cosine.y * std::cos(angle), cosine.y * std::sin(angle), cosine.x});
+}
+
 /// The pivot phase function to sample a lamp by. Of a sharp Henyey-Greenstein lobe not the one that looks most like it,
 /// but the one of the least chi^2 (g_p 0.833, 0.910, 0.980 of g 0.9, 0.95, 0.99), between which this is a fit.
 inline PivotPhase<float> proxy_of(const Phase& phase) {
