@@ -182,13 +182,11 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
         sky =
             select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
-    Vec3b through(Batch(1.0f));  // what the media leave on the way
-    std::array<Rgb, batch_size> lamps{};
+    std::array<Rgb, batch_size> left, lamps;  // what the media leave on the way, and of lamps on it
     if (fog) {
         const std::array<Ray, batch_size> rays = unpack<RayOf>(scattered.rays);
-        std::array<Rgb, batch_size> left;
         for (std::size_t i = 0; i < batch_size; ++i) {
-            left[i] = Rgb(1.0f);
+            left[i] = Rgb(1.0f), lamps[i] = Rgb(0.0f);
             if (i >= batch.paths.size() || !goes_on[i]) continue;
             Ray ray = rays[i];
             ray.far_m = paths[i].arrival.hit.instance == no_instance ? std::numeric_limits<float>::infinity()
@@ -198,7 +196,6 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
             left[i] = fog->cross(ray, bounce + 1, before);
             paths[i].throughput *= left[i];
         }
-        through = gather_vector([&](std::size_t i) { return left[i]; });
     }
     const Lanes pdf_omega = store(scattered.pdf_omega), u_roulette = store(scattered.u_roulette);
     const Lanes survival = store(min(max_component(scattered.throughput), Batch(max_roulette_survival)));
@@ -214,8 +211,9 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
         const bool is_met = arrival.hit.instance != no_instance;
         Rgb light(0.0f);
         if (!shared.at(i).empty())
-            lamps[i] = lamps_met(work, fog, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
-                                 is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity(), path.sample);
+            (fog ? lamps[i] : light) =
+                lamps_met(work, fog, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
+                          is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity(), path.sample);
         bool shines_by_program = false;
         if (is_met) {
             arrival.material = scene.material_of(arrival.hit);
@@ -237,11 +235,11 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
         }
         next.push_back(path);
     }
-    add_light(work, bounce, batch,
-              select(scattered.goes_on,
-                     scattered.throughput * (through * (sky + Vec3b(load(r), load(g), load(b))) +
-                                             gather_vector([&](std::size_t i) { return lamps[i]; })),
-                     Vec3b(Batch(0.0f))));
+    Vec3b light = sky + Vec3b(load(r), load(g), load(b));
+    if (fog)
+        light = light * gather_vector([&](std::size_t i) { return left[i]; }) +
+                gather_vector([&](std::size_t i) { return lamps[i]; });
+    add_light(work, bounce, batch, select(scattered.goes_on, scattered.throughput * light, Vec3b(Batch(0.0f))));
 }
 
 /// Traces a batch of paths from their vertices on, as many as it says: what light they bring there, and where they go
