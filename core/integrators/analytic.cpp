@@ -101,18 +101,6 @@ void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& refl
     }
 }
 
-/// What media leave of a light on its way to each lane.
-void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
-    if (scene.media().is_empty()) return;
-    MediaRay ray(scene.media());
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const Rgb left = transmittance_from(light, batch.lanes[i]->point.position, ray);
-        reflection.diffuse[i] *= left;
-        reflection.glossy[i] *= left;
-        reflection.shadow_variance[i] *= sqr(mean_component(left));
-    }
-}
-
 /// All lights in closed form first: one that gives little of the total needs few rays for its share of the budget.
 void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
                 const SurfaceBatch& batch, std::span<Gathered> gathered) {

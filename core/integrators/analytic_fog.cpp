@@ -1,6 +1,5 @@
 #include "core/integrators/analytic_fog.h"
 
-#include "core/integrators/cap_light_shading.h"
 #include "core/integrators/scatter_table.h"
 
 namespace pivot {
@@ -122,6 +121,17 @@ Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray) 
     // A sphere's face is so much nearer in the mean.
     const float face_m = sphere.is_facing_disk ? 0.0f : sphere.radius_m * (2.0f / 3.0f);
     return from(d / distance_m, std::max(distance_m - face_m, 0.0f));
+}
+
+void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
+    if (scene.media().is_empty()) return;
+    MediaRay ray(scene.media());
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const Rgb left = transmittance_from(light, batch.lanes[i]->point.position, ray);
+        reflection.diffuse[i] *= left;
+        reflection.glossy[i] *= left;
+        reflection.shadow_variance[i] *= sqr(mean_component(left));
+    }
 }
 
 FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,

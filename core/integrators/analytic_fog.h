@@ -2,7 +2,7 @@
 // lamp in closed form, and the share of it that is seen is traced to fixed points.
 #pragma once
 
-#include "core/integrators/fixed_points.h"
+#include "core/integrators/cap_light_shading.h"
 #include "core/integrators/fog_lamp.h"
 
 namespace pivot {
@@ -20,5 +20,8 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, co
 
 /// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray);
+
+/// Takes from a light's reflection what media take of the light on its way to each lane.
+void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& batch, Reflection& reflection);
 
 }  // namespace pivot

@@ -81,8 +81,8 @@ class Fog {
     void sample_candidates(std::span<const Candidate> candidates, std::uint32_t bounce, const Path& path, float weight,
                            std::uint32_t place, std::uint32_t count);
     /// batch_size places at once, of a cap-shaped lamp in an even medium of one lobe: mix_. first: of so many places.
-    void sample_places(const Candidate& candidate, std::uint32_t first, std::uint32_t count, std::uint32_t bounce,
-                       const Path& path, std::uint32_t dimension);
+    void sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f& u_light, std::uint32_t first,
+                       std::uint32_t count, std::uint32_t bounce, const Path& path, std::uint32_t dimension);
     /// At a place of the ray that mix_ is of.
     void sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,
                       const Path& path, std::uint32_t dimension);

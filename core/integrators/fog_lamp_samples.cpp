@@ -72,7 +72,7 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
         if (mix_.lobes.size() == 1) {
             const std::uint32_t batches = (count + batch_size - 1) / batch_size;
             for (std::uint32_t i = 0; i < batches; ++i)
-                sample_places(candidates[0], i * batch_size, batches * batch_size, bounce, path, dimension);
+                sample_places(candidates[0], u, u_light, i * batch_size, batches * batch_size, bounce, path, dimension);
             return;
         }
     }
@@ -94,10 +94,9 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     }
 }
 
-void Fog::sample_places(const Candidate& candidate, std::uint32_t first, std::uint32_t count, std::uint32_t bounce,
-                        const Path& path, std::uint32_t dimension) {
+void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f& u_light, std::uint32_t first,
+                        std::uint32_t count, std::uint32_t bounce, const Path& path, std::uint32_t dimension) {
     const Sampler& sampler = work_.samplers[path.sample];
-    const Vec2f u = sampler.point(dimension), u_light = sampler.point(dimension + 1);
     const Batch k = gather([&](std::size_t i) { return static_cast<float>(first + i); });
     const auto turned = [&](float from, float ratio) {
         const Batch x = Batch(from) + Batch(ratio) * k;

@@ -60,18 +60,15 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::un
         has_world_ = true;
     }
     for (const std::optional<Instance>& instance : instances) {
-        if (!instance) continue;
+        const auto has_medium = [&](std::uint32_t material) { return shaders[material].medium != nullptr; };
+        if (!instance || std::ranges::none_of(instance->materials, has_medium)) continue;
         const Mesh& mesh = *meshes[instance->mesh];
-        Boundary boundary{&mesh, &*instance, {}};
-        bool has_any = false;
+        Boundary& boundary = boundaries_.emplace_back(Boundary{&mesh, &*instance, {}});
         for (const std::uint32_t material : instance->materials) {
             const std::shared_ptr<const Medium>& medium = shaders[material].medium;
             boundary.medium_of_slot.push_back(medium ? static_cast<std::uint32_t>(placed_.size()) : no_medium);
-            if (!medium) continue;
-            placed_.push_back(place(medium, mesh, instance->world_from_object));
-            has_any = true;
+            if (medium) placed_.push_back(place(medium, mesh, instance->world_from_object));
         }
-        if (has_any) boundaries_.push_back(std::move(boundary));
     }
     are_even_boxes_ = std::ranges::all_of(placed_, [&](const PlacedMedium& placed) {
         return !placed.varies() && (placed.box || (has_world_ && &placed == placed_.data()));
@@ -88,14 +85,11 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::un
             tracer_->set_instance(id, instance->mesh, instance->world_from_object, visible_to_all);
             continue;
         }
+        const Transform& to_world = instance->world_from_object;
+        const auto corner = [&](std::uint32_t at) { return to_world.point(mesh->positions[at]); };
+        const bool is_mirrored = dot(instance->normal_matrix[0], cross(to_world.linear[1], to_world.linear[2])) < 0.0f;
         for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
-            const auto corner = [&](std::uint32_t at) {
-                return instance->world_from_object.point(mesh->positions[at]);
-            };
             const Triangle& t = mesh->triangles[i];
-            const bool is_mirrored =
-                dot(instance->normal_matrix[0],
-                    cross(instance->world_from_object.linear[1], instance->world_from_object.linear[2])) < 0.0f;
             const Vec3f b = corner(t.y), c = corner(t.z);
             if (const std::uint32_t medium = medium_of(boundaries_[id], i); medium != no_medium)
                 few_triangles_.add(corner(t.x), is_mirrored ? c : b, is_mirrored ? b : c, medium);

@@ -315,7 +315,7 @@ void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, c
 void RayTracer::set_visibility(std::uint32_t instance_id, std::uint32_t visibility) {
     auto& self = *implementation_;
     Implementation::Placed& instance = self.placed.at(instance_id);
-    instance.visibility = visibility;
+    if (std::exchange(instance.visibility, visibility) == visibility) return;
     if (instance.side == Implementation::Side::none) return;
     const bool is_still = instance.side == Implementation::Side::still;
     const RTCGeometry geometry =
