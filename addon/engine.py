@@ -128,7 +128,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         views = len(self._views(scene))
         channels = [channel_count(layer) for layer in scene.view_layers if layer.use for _ in range(views)]
         width, height = frame.window_size
-        check_memory(width, height, picture_bytes(width, height, native.Session.bytes_per_pixel, channels))
+        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive)
+        check_memory(width, height, picture_bytes(width, height, film_pixel_bytes, channels))
 
     def _check_cancel(self) -> None:
         if self.test_break():

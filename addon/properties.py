@@ -42,7 +42,7 @@ class PivotSettings(bpy.types.PropertyGroup):
     samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, soft_max=4096, max=1 << 20)
     adaptive: BoolProperty(
         name="Adaptive",
-        description="Stop each pixel at the error budget; the samples are the most it gets",
+        description="Put samples where they help most, at most so many in a pixel, until the picture meets the budget",
         default=False,
     )
     seed: IntProperty(
@@ -80,8 +80,8 @@ class PivotSettings(bpy.types.PropertyGroup):
     error_budget: FloatProperty(
         name="Error Budget",
         description=(
-            "The largest error that closed forms, or a pixel under adaptive sampling, may have. Analytic shadows take "
-            "more rays the smaller it is; how far off they may be is in the Error pass"
+            "The largest error that closed forms may have, or that adaptive sampling may leave in the picture. "
+            "Analytic shadows take more rays the smaller it is; how far off they may be is in the Error pass"
         ),
         default=2.0,
         min=0.01,

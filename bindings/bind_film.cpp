@@ -7,43 +7,54 @@
 namespace pivot::bindings {
 namespace {
 
-py::array_t<float> filter_offsets(const std::string& pixel_filter, float width_px, const FloatArray& u) {
+py::tuple filter_samples(const std::string& pixel_filter, float width_px, const FloatArray& u) {
     require_shape(u, "u", {-1, 2});
     const PixelFilter filter(pixel_filter_from(pixel_filter), width_px);
-    py::array_t<float> offsets({u.shape(0), py::ssize_t(2)});
+    const py::ssize_t pixels = 2 * filter.reach_px() + 1;
+    py::array_t<float> offsets({u.shape(0), py::ssize_t(2)}), weights({u.shape(0), py::ssize_t(2), pixels});
     for (py::ssize_t i = 0; i < u.shape(0); ++i) {
-        const Vec2f offset = filter.sample({u.at(i, 0), u.at(i, 1)});
-        offsets.mutable_at(i, 0) = offset.x;
-        offsets.mutable_at(i, 1) = offset.y;
+        const FilterSample sample = filter.sample({u.at(i, 0), u.at(i, 1)});
+        offsets.mutable_at(i, 0) = sample.offset.x;
+        offsets.mutable_at(i, 1) = sample.offset.y;
+        std::ranges::copy(sample.weights_x, weights.mutable_data(i, 0));
+        std::ranges::copy(sample.weights_y, weights.mutable_data(i, 1));
     }
-    return offsets;
+    return py::make_tuple(offsets, weights, filter.variance_left());
 }
 
-py::array_t<std::uint32_t> sample_counts_of(const FloatArray& blocks, float relative_error, std::uint32_t max_samples) {
-    require_shape(blocks, "blocks", {-1, -1, -1});
-    const py::ssize_t height = blocks.shape(0), width = blocks.shape(1);
-    std::vector<Pilot> pilots(static_cast<std::size_t>(height * width));
-    for (std::size_t pixel = 0; pixel < pilots.size(); ++pixel) {
-        const float* block = blocks.data() + static_cast<py::ssize_t>(pixel) * blocks.shape(2);
-        for (py::ssize_t i = 0; i < blocks.shape(2); ++i) {
-            if (std::isfinite(block[i])) pilots[pixel].add(block[i]);
-        }
+py::tuple sample_counts_of(const FloatArray& samples, float relative_error, float variance_left,
+                           std::uint32_t max_samples) {
+    require_shape(samples, "samples", {2, -1, -1, -1});
+    const PixelGrid grid{static_cast<int>(samples.shape(2)), static_cast<int>(samples.shape(1))};
+    std::array<std::vector<Pilot>, 2> pilot;
+    const float* sample = samples.data();
+    for (std::vector<Pilot>& half : pilot) {
+        half.resize(grid.size());
+        for (Pilot& pixel : half)
+            for (py::ssize_t i = 0; i < samples.shape(3); ++i) pixel.add(*sample++);
     }
-    const std::vector<std::uint32_t> counts =
-        sample_counts(pilots, static_cast<int>(width), relative_error, max_samples);
-    return py::array_t<std::uint32_t>({height, width}, counts.data());
+    const SampleCounts counts = sample_counts(pilot, grid, relative_error, variance_left, max_samples);
+    py::array_t<float> weights({py::ssize_t(2), samples.shape(1), samples.shape(2)});
+    for (const std::size_t half : {0, 1})
+        std::ranges::copy(counts.half_weight[half], weights.mutable_data(static_cast<py::ssize_t>(half)));
+    return py::make_tuple(py::array_t<std::uint32_t>({samples.shape(1), samples.shape(2)}, counts.further.data()),
+                          weights);
 }
 
 }  // namespace
 
 void register_film(py::module_& film) {
-    film.def("filter_offsets", &filter_offsets, py::arg("pixel_filter"), py::arg("width_px"), py::arg("u"),
-             "Offsets (n, 2) from the pixel's centre, in pixels, for random numbers u (n, 2) in [0, 1).");
-    film.def("pilot_samples", &pilot_samples, py::arg("max_samples"),
-             "How many samples every pixel gets when at most max_samples are allowed.");
-    film.def("sample_counts", &sample_counts_of, py::arg("blocks"), py::arg("relative_error"), py::arg("max_samples"),
-             "How many samples each pixel gets, (height, width), after a pilot that found the means `blocks` (height, "
-             "width, n) of four samples each; what is not finite was left out.");
+    film.def("filter_samples", &filter_samples, py::arg("pixel_filter"), py::arg("width_px"), py::arg("u"),
+             "For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, "
+             "k) along x and y for the k pixels around and including it; the variance that a pixel has, times its "
+             "samples, over that of one sample.");
+    film.def("half_pilot_samples", &half_pilot_samples, py::arg("max_samples"),
+             "How many samples each half of the pilot gives every pixel when at most max_samples are allowed.");
+    film.def(
+        "sample_counts", &sample_counts_of, py::arg("samples"), py::arg("relative_error"), py::arg("variance_left"),
+        py::arg("max_samples"),
+        "After a pilot that found radiances `samples` (2, height, width, n), by halves: how many samples follow for "
+        "each pixel (height, width), and what each half weighs in the picture (2, height, width).");
 }
 
 }  // namespace pivot::bindings

@@ -75,8 +75,7 @@ void register_render(py::module_& module) {
              py::arg("filter_glossy") = 0.0f);
     py::class_<Session>(
         module, "Session",
-        "A render by native threads. Sessions may share a scene, which must not be edited until all have ended. "
-        "bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.")
+        "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
         .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
         .def("start", &Session::start, py::call_guard<py::gil_scoped_release>(),
              "Starts the threads and returns at once.")
@@ -85,10 +84,12 @@ void register_render(py::module_& module) {
         .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")
         .def_property_readonly("progress", &Session::progress, "0..1")
         .def_property_readonly("samples_done", &Session::samples_done, "Samples complete over the whole window.")
+        .def_property_readonly("pixel_samples", &Session::pixel_samples,
+                               "Samples so far, of all pixels and of those around the window whose samples reach it.")
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
-        .def_property_readonly_static(
-            "bytes_per_pixel", [](const py::object&) { return sizeof(Pixel) + sizeof(Pilot) + sizeof(std::uint32_t); })
+        .def_static("bytes_per_pixel", &Session::bytes_per_pixel, py::arg("adaptive"),
+                    "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def("read", &read, py::arg("pass_name"),

@@ -15,35 +15,37 @@ namespace {
 constexpr int tile_size = 32;
 /// Passes grow from one sample, so that the first picture is early, to this many, so that tiles are worth their
 /// overhead.
-constexpr std::uint32_t max_samples_per_pass = 8;
+constexpr std::uint32_t max_samples_per_pass = 8, max_samples_per_sparse_pass = 64;
 constexpr std::size_t max_bad_samples = 8;
+constexpr std::uint32_t places_when_adaptive = 16;
+constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
 
-std::vector<Tile> make_tiles(int width, int height) {
-    std::vector<Tile> tiles;
-    for (int y = 0; y < height; y += tile_size) {
-        for (int x = 0; x < width; x += tile_size) {
-            tiles.push_back({x, y, std::min(x + tile_size, width), std::min(y + tile_size, height)});
+/// The squares from which samples reach a window's pixels, in tiles. Tiles of one colour, four in all, are a tile
+/// apart: their samples reach different pixels.
+std::array<std::vector<Tile>, 4> make_tiles(const Window& window, int reach_px) {
+    std::array<std::vector<Tile>, 4> tiles;
+    const Tile all{-reach_px, -reach_px, window.width() + reach_px, window.height() + reach_px};
+    // By place in the frame, so that a window's pixels get what those of the whole get, in the same order.
+    const auto before = [](int frame) { return frame - ((frame % tile_size) + tile_size) % tile_size; };
+    const int x_first = before(window.x0 + all.x0), y_first = before(window.y0 + all.y0);
+    for (int y = y_first; y < window.y0 + all.y1; y += tile_size) {
+        for (int x = x_first; x < window.x0 + all.x1; x += tile_size) {
+            const auto colour = static_cast<std::size_t>(((x / tile_size) & 1) + 2 * ((y / tile_size) & 1));
+            tiles[colour].push_back({std::max(x - window.x0, all.x0), std::max(y - window.y0, all.y0),
+                                     std::min(x - window.x0 + tile_size, all.x1),
+                                     std::min(y - window.y0 + tile_size, all.y1)});
         }
     }
     return tiles;
 }
 
+bool is_adaptive(const RenderSettings& settings) {
+    return settings.adaptive && settings.integrator == Integrator::monte_carlo;
+}
+
 bool is_finite(const Sample& s) {
     const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
-}
-
-void add(Sample& sum, const Sample& sample) {
-    sum.radiance += sample.radiance;
-    sum.alpha += sample.alpha;
-    sum.normal += sample.normal;
-    sum.albedo += sample.albedo;
-    sum.emission += sample.emission;
-    sum.volume_direct += sample.volume_direct;
-    sum.volume_indirect += sample.volume_indirect;
-    sum.method += sample.method;
-    sum.error += sample.error;
-    sum.shadow_variance += sample.shadow_variance;
 }
 
 }  // namespace
@@ -52,9 +54,10 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
     : scene_(std::move(scene)),
       settings_(settings),
       filter_(settings.filter_shape, settings.filter_width_px),
+      squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
+               scene_->camera().window.height() + 2 * filter_.reach_px()},
       film_(scene_->camera().window.width(), scene_->camera().window.height()),
-      total_pixel_samples_(static_cast<std::uint64_t>(film_.width()) * static_cast<std::uint64_t>(film_.height()) *
-                           settings.samples) {
+      total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
 
@@ -90,6 +93,12 @@ bool Session::wait(double seconds) {
     return ended;
 }
 
+std::size_t Session::bytes_per_pixel(bool adaptive) {
+    if (!adaptive) return sizeof(Pixel);
+    constexpr std::size_t numbers_of_counts = 16;  // while they are made
+    return 2 * (sizeof(Pixel) + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
+}
+
 double Session::progress() const {
     const double of_samples = static_cast<double>(pixel_samples_done_) / static_cast<double>(total_pixel_samples_);
     if (!(settings_.time_limit_s > 0.0f)) return of_samples;
@@ -112,119 +121,190 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    const bool adaptive = settings_.adaptive && settings_.integrator == Integrator::monte_carlo;
-    const std::uint32_t pilot_end = adaptive ? pilot_samples(settings_.samples) : settings_.samples;
-    if (adaptive) pilots_.resize(static_cast<std::size_t>(film_.width()) * static_cast<std::size_t>(film_.height()));
-    if (!render_passes(0, pilot_end) || pilot_end == settings_.samples) return;
-    counts_ = sample_counts(pilots_, film_.width(), 0.01f * settings_.error_budget_percent, settings_.samples);
-    pilots_.clear();
-    total_pixel_samples_ = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
-    render_passes(pilot_end, *std::max_element(counts_.begin(), counts_.end()));
-    if (!should_stop()) samples_done_ = settings_.samples;
+    if (is_adaptive(settings_))
+        render_adaptively();
+    else
+        render_round({.film = film_, .seed = settings_.seed}, settings_.samples);
 }
 
-bool Session::render_passes(std::uint32_t first_sample, std::uint32_t last_sample) {
-    for (std::uint32_t done = first_sample; done < last_sample;) {
-        const std::uint32_t pass = std::min({std::max(done, 1u), max_samples_per_pass, last_sample - done});
-        render_pass(done, done + pass);
+void Session::render_adaptively() {
+    const std::uint32_t half = half_pilot_samples(settings_.samples);
+    Film other_film(film_.width(), film_.height());
+    std::array<std::vector<Pilot>, 2> pilot;
+    for (const std::uint32_t number : {0u, 1u}) {
+        pilot[number].resize(squares_.size());
+        const Round round{
+            .film = number == 0 ? film_ : other_film, .seed = hash(settings_.seed, number), .pilot = pilot[number]};
+        if (!render_round(round, half)) return;
+    }
+    const auto [further, half_weight] = sample_counts(pilot, squares_, 0.01f * settings_.error_budget_percent,
+                                                      filter_.variance_left(), settings_.samples);
+    std::array<std::vector<float>, 2> weights;  // of the halves, then of what follows them, in each pixel
+    std::vector<float> weight_left;
+    for (int y = 0; y < film_.height(); ++y) {
+        for (int x = 0; x < film_.width(); ++x) {
+            const std::size_t square = squares_.index(x + filter_.reach_px(), y + filter_.reach_px());
+            for (const std::size_t number : {0, 1}) weights[number].push_back(half_weight[number][square]);
+            weight_left.push_back(1.0f - weights[0].back() - weights[1].back());
+        }
+    }
+    film_.merge(other_film, weights[0], weights[1]);
+    const std::uint64_t rest = std::accumulate(further.begin(), further.end(), std::uint64_t{0});
+    total_pixel_samples_ = pixel_samples_done_ + rest;
+    const Round round{.film = film_, .seed = hash(settings_.seed, 2u), .counts = further, .weights = weight_left};
+    if (render_round(round, *std::ranges::max_element(further))) samples_done_ = settings_.samples;
+}
+
+/// Successive samples, where they lie in each pixel, and what they weigh for each of those around it, row by row.
+struct Session::Pass {
+    struct Places {
+        std::vector<Vec2f> offsets;
+        std::vector<std::vector<float>> weights;
+    };
+
+    std::uint32_t first_sample, last_sample;
+    std::vector<Places> places;  ///< squares take one or another
+
+    Pass(std::uint32_t first, std::uint32_t last, const PixelFilter& filter, std::uint32_t seed,
+         std::uint32_t place_count)
+        : first_sample(first), last_sample(last) {
+        const auto across = static_cast<std::size_t>(2 * filter.reach_px() + 1);
+        for (std::uint32_t k = 0; k < place_count; ++k) {
+            Places& of_one = places.emplace_back();
+            of_one.weights.resize(across * across);
+            for (std::uint32_t index = first; index < last; ++index) {
+                const FilterSample sample = filter.sample(Sampler{hash(seed, k), index}.point(0));
+                of_one.offsets.push_back(sample.offset);
+                for (std::size_t y = 0; y < across; ++y)
+                    for (std::size_t x = 0; x < across; ++x)
+                        of_one.weights[y * across + x].push_back(sample.weights_x[x] * sample.weights_y[y]);
+            }
+        }
+    }
+
+    const Places& places_of(std::size_t square) const {
+        return places[hash(static_cast<std::uint32_t>(square), 0u) % places.size()];
+    }
+};
+
+bool Session::render_round(const Round& round, std::uint32_t samples) {
+    const auto tiles = make_tiles(scene_->camera().window, filter_.reach_px());
+    const std::uint32_t most = round.counts.empty() ? max_samples_per_pass : max_samples_per_sparse_pass;
+    // An analytic picture is the same for all seeds.
+    const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
+    for (std::uint32_t done = 0; done < samples;) {
+        const std::uint32_t count = std::min({std::max(done, 1u), most, samples - done});
+        const Pass pass(done, done + count, filter_, seed, is_adaptive(settings_) ? places_when_adaptive : 1u);
+        for (const std::vector<Tile>& of_one_colour : tiles)
+            tbb::parallel_for_each(of_one_colour, [&](const Tile& tile) { render_tile(round, pass, tile); });
         if (should_stop()) return false;
-        done += pass;
-        samples_done_ = done;
+        samples_done_ += count;
+        done += count;
     }
     return true;
 }
 
-void Session::render_pass(std::uint32_t first_sample, std::uint32_t last_sample) {
-    const std::vector<Tile> tiles = make_tiles(film_.width(), film_.height());
-    tbb::parallel_for_each(tiles, [&](const Tile& tile) { render_tile(tile, first_sample, last_sample); });
+std::size_t Session::count_of(const Round& round, const Pass& pass, std::size_t square) {
+    const std::uint32_t last =
+        round.counts.empty() ? pass.last_sample : std::min(pass.last_sample, round.counts[square]);
+    return last > pass.first_sample ? last - pass.first_sample : 0;
 }
 
-void Session::render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample) {
+void Session::render_tile(const Round& round, const Pass& pass, const Tile& tile) {
+    const bool analytic = settings_.integrator == Integrator::analytic;
+    const int reach = filter_.reach_px();
+    const auto is_wanted = [&] {
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x)
+                if (count_of(round, pass, squares_.index(x + reach, y + reach)) > 0) return true;
+        return false;
+    };
+    if (!is_wanted()) return;
+    const Tile reached{std::max(tile.x0 - reach, 0), std::max(tile.y0 - reach, 0),
+                       std::min(tile.x1 + reach, film_.width()), std::min(tile.y1 + reach, film_.height())};
+    const PixelGrid grid{reached.x1 - reached.x0, reached.y1 - reached.y0};
     std::vector<Pixel> pixels;
-    film_.load(tile, pixels);
-    const auto width = static_cast<std::size_t>(tile.x1 - tile.x0);
-    std::span<Pixel> left = pixels;
+    round.film.load(reached, pixels);
+    std::vector<float> squared_radiances;
     std::size_t samples_added = 0;
-    for (int y = tile.y0; y < tile.y1; ++y, left = left.subspan(width)) {
-        if (should_stop()) return;  // a tile is all or nothing: every pixel of it has all of a pass or none
-        const std::span<Pixel> row = left.first(width);
-        for (std::size_t i = 0; first_sample == 0 && i < width; ++i)
-            see_center(row[i], tile.x0 + static_cast<int>(i), y);
-        samples_added += add_samples(row, tile.x0, y, first_sample, last_sample);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
+        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y);
+        if (row.empty()) continue;
+        samples_added += row.size();
+        squared_radiances.clear();
+        for (const Sample& sample : row)
+            squared_radiances.push_back(analytic ? sqr(mean_component(sample.radiance)) : 0.0f);
+        std::size_t first = 0;
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            const bool is_seen = x >= 0 && x < film_.width() && y >= 0 && y < film_.height();
+            if (pass.first_sample == 0 && is_seen) see_center(pixels[grid.index(x - reached.x0, y - reached.y0)], x, y);
+            const std::size_t square = squares_.index(x + reach, y + reach), count = count_of(round, pass, square);
+            const std::span<const Sample> samples = std::span(row).subspan(first, count);
+            const auto squares = std::span<const float>(squared_radiances).subspan(first, count);
+            first += count;
+            const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
+            auto weights = pass.places_of(square).weights.begin();
+            for (int v = y - reach; v <= y + reach; ++v) {
+                for (int u = x - reach; u <= x + reach; ++u, ++weights) {
+                    if (u < reached.x0 || u >= reached.x1 || v < reached.y0 || v >= reached.y1) continue;
+                    const float of_round = round.weights.empty() ? 1.0f : round.weights[film_.grid().index(u, v)];
+                    pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, squares,
+                                                                                   scale * of_round);
+                }
+            }
+        }
     }
-    film_.store(tile, pixels);
+    round.film.store(reached, pixels);
     pixel_samples_done_ += samples_added;
 }
 
-std::size_t Session::add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample,
-                                 std::uint32_t last_sample) {
+std::vector<Sample> Session::sample_row(const Round& round, const Pass& pass, int x0, int x1, int y) {
     const Camera& camera = scene_->camera();
-    const bool analytic = settings_.integrator == Integrator::analytic;
-    const std::size_t first_pixel =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x0);
-    const auto end_of = [&](std::size_t pixel) {
-        return counts_.empty() ? last_sample : std::min(last_sample, counts_[first_pixel + pixel]);
-    };
-    struct PixelSample {
-        std::size_t pixel;
-        std::uint32_t index;
-    };
-    // Paths of one pixel side by side, but analytic samples of one index: what they share goes together in a batch.
-    std::vector<PixelSample> planned;
-    planned.reserve(row.size() * (last_sample - first_sample));
-    if (analytic) {
-        for (std::uint32_t index = first_sample; index < last_sample; ++index)
-            for (std::size_t i = 0; i < row.size(); ++i) planned.push_back({i, index});
-    } else {
-        for (std::size_t i = 0; i < row.size(); ++i)
-            for (std::uint32_t index = first_sample; index < end_of(i); ++index) planned.push_back({i, index});
-    }
-    const int frame_x0 = camera.window.x0 + x0, frame_y = camera.window.y0 + y;
+    const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
+    std::vector<Ray> rays;
     std::vector<Sampler> samplers;
-    samplers.reserve(planned.size());
-    for (const auto& [pixel, index] : planned) {
-        // By place in the frame, so that a window shows the pixels of the whole; analytic pictures use one pattern for
-        // all.
-        const std::uint32_t place =
-            hash(static_cast<std::uint32_t>(frame_x0 + static_cast<int>(pixel)), static_cast<std::uint32_t>(frame_y));
-        samplers.emplace_back(analytic ? 0u : hash(place, settings_.seed), index);
-    }
-    std::vector<Vec2f> in_pixel(planned.size());
-    sample_points(samplers, 0, in_pixel);
-    std::vector<Ray> rays(planned.size());
-    for (std::size_t i = 0; i < planned.size(); ++i) {
-        const int frame_x = frame_x0 + static_cast<int>(planned[i].pixel);
+    for (int x = x0; x < x1; ++x) {
+        const int frame_x = camera.window.x0 + x;
         const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
-        rays[i] = camera.ray(center + filter_.sample(in_pixel[i]));
+        // By place in the frame, so that a window shows the pixels of the whole.
+        const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
+        const std::size_t square = squares_.index(x + reach, y + reach);
+        const std::size_t count = count_of(round, pass, square);
+        const std::vector<Vec2f>& offsets = pass.places_of(square).offsets;
+        for (std::size_t k = 0; k < count; ++k) {
+            rays.push_back(camera.ray(center + offsets[k]));
+            samplers.emplace_back(hash(place, round.seed), pass.first_sample + static_cast<std::uint32_t>(k));
+        }
     }
     std::vector<Sample> samples(rays.size());
-    if (analytic) {
-        for (std::size_t first = 0; first < rays.size(); first += row.size()) {
-            shade_analytic(*scene_, settings_, std::span(rays).subspan(first, row.size()), planned[first].index,
-                           std::span(samples).subspan(first, row.size()));
+    if (rays.empty()) return samples;
+    if (settings_.integrator == Integrator::analytic) {
+        // Samples of one index go together in a batch: they share what is known by it.
+        const std::size_t count = pass.last_sample - pass.first_sample, width = rays.size() / count;
+        std::vector<Ray> of_one_index(width);
+        std::vector<Sample> shaded(width);
+        for (std::size_t k = 0; k < count; ++k) {
+            for (std::size_t i = 0; i < width; ++i) of_one_index[i] = rays[i * count + k];
+            shade_analytic(*scene_, settings_, of_one_index, samplers[k].sample, shaded);
+            for (std::size_t i = 0; i < width; ++i) samples[i * count + k] = shaded[i];
         }
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        Pixel& pixel = row[planned[i].pixel];
-        pixel.count += 1;
-        if (is_finite(samples[i])) {
-            add(pixel.sum, samples[i]);
-            if (analytic) pixel.sum_of_squares += sqr(mean_component(samples[i].radiance));
-        } else {
-            report_bad_sample(frame_x0 + static_cast<int>(planned[i].pixel), frame_y, rays[i]);
+    const std::size_t first_square = squares_.index(x0 + reach, y + reach);
+    std::size_t at = 0;
+    for (int x = x0; x < x1; ++x) {
+        const std::size_t square = first_square + static_cast<std::size_t>(x - x0);
+        for (const std::size_t end = at + count_of(round, pass, square); at < end; ++at) {
+            if (!is_finite(samples[at])) {
+                report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
+                samples[at] = {.alpha = 0.0f};
+            }
+            if (!round.pilot.empty()) round.pilot[square].add(mean_component(samples[at].radiance));
         }
     }
-    if (!pilots_.empty() && (last_sample - first_sample) % pilot_block == 0) {
-        for (std::size_t i = 0; i < rays.size(); i += pilot_block) {
-            Rgb block(0.0f);
-            for (std::size_t k = 0; k < pilot_block; ++k) block += samples[i + k].radiance;
-            const float mean = (block.x + block.y + block.z) / (3.0f * pilot_block);
-            if (std::isfinite(mean)) pilots_[first_pixel + planned[i].pixel].add(mean);
-        }
-    }
-    return rays.size();
+    return samples;
 }
 
 void Session::see_center(Pixel& pixel, int x, int y) const {

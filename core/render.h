@@ -33,20 +33,38 @@ class Session {
     /// Asks the render to end; it does so within milliseconds.
     void stop() { stop_ = true; }
 
+    /// What a session allocates for each pixel of its window.
+    static std::size_t bytes_per_pixel(bool adaptive);
+
     double progress() const;
     std::uint32_t samples_done() const { return samples_done_; }
+    /// Of all squares.
+    std::uint64_t pixel_samples() const { return pixel_samples_done_; }
     const Film& film() const { return film_; }
     /// The first few samples that were not finite and were left out, each by pixel and object.
     std::vector<std::string> bad_samples() const;
 
    private:
+    /// Samples that go to one film by one sequence of points. Squares are the window's pixels and those around it whose
+    /// samples reach these.
+    struct Round {
+        Film& film;
+        std::uint32_t seed;
+        std::span<Pilot> pilot{};                 ///< of each square, to be told of its samples; empty: nobody asks
+        std::span<const std::uint32_t> counts{};  ///< of each square; empty: all get as many
+        std::span<const float> weights{};         ///< of the round in each pixel; empty: that of its samples
+    };
+    struct Pass;
+
     void run();
-    void render_pass(std::uint32_t first_sample, std::uint32_t last_sample);
-    void render_tile(const Tile& tile, std::uint32_t first_sample, std::uint32_t last_sample);
-    /// False when it was stopped.
-    bool render_passes(std::uint32_t first_sample, std::uint32_t last_sample);
-    /// Adds the samples to part of row y of the window, from x0 on; how many they were.
-    std::size_t add_samples(std::span<Pixel> row, int x0, int y, std::uint32_t first_sample, std::uint32_t last_sample);
+    void render_adaptively();
+    /// So many samples of each square, or of its count as many. False when it was stopped.
+    bool render_round(const Round& round, std::uint32_t samples);
+    void render_tile(const Round& round, const Pass& pass, const Tile& tile);
+    /// A pass's samples of the squares of row y from x0 to x1, one after the other.
+    std::vector<Sample> sample_row(const Round& round, const Pass& pass, int x0, int x1, int y);
+    /// How many of a pass's samples a square gets.
+    static std::size_t count_of(const Round& round, const Pass& pass, std::size_t square);
     void see_center(Pixel& pixel, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;
@@ -54,10 +72,8 @@ class Session {
     std::shared_ptr<Scene> scene_;
     RenderSettings settings_;
     PixelFilter filter_;
+    PixelGrid squares_;
     Film film_;
-    // Adaptive sampling: what the pilot found while it lasts, then each pixel's count. Tiles touch their own pixels.
-    std::vector<Pilot> pilots_;
-    std::vector<std::uint32_t> counts_;
     std::atomic<std::uint64_t> total_pixel_samples_;
     std::chrono::steady_clock::time_point start_time_, deadline_;
     std::atomic<bool> stop_{false};

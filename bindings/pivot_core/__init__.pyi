@@ -665,10 +665,13 @@ class RenderSettings:
 
 class Session:
     """
-    A render by native threads. Sessions may share a scene, which must not be edited until all have ended. bytes_per_pixel: what one allocates for each pixel of its window, the counts of adaptive sampling included.
+    A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
-
-    bytes_per_pixel: typing.ClassVar[int] = 136
+    @staticmethod
+    def bytes_per_pixel(adaptive: bool) -> int:
+        """
+        What a session allocates for each pixel of its window.
+        """
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -693,6 +696,11 @@ class Session:
         """
     @property
     def height(self) -> int: ...
+    @property
+    def pixel_samples(self) -> int:
+        """
+        Samples so far, of all pixels and of those around the window whose samples reach it.
+        """
     @property
     def progress(self) -> float:
         """

@@ -7,27 +7,28 @@ import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["filter_offsets", "pilot_samples", "sample_counts"]
+__all__: list[str] = ["filter_samples", "half_pilot_samples", "sample_counts"]
 
-def filter_offsets(
+def filter_samples(
     pixel_filter: str,
     width_px: typing.SupportsFloat | typing.SupportsIndex,
     u: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-) -> numpy.typing.NDArray[numpy.float32]:
+) -> tuple:
     """
-    Offsets (n, 2) from the pixel's centre, in pixels, for random numbers u (n, 2) in [0, 1).
+    For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, k) along x and y for the k pixels around and including it; the variance that a pixel has, times its samples, over that of one sample.
     """
 
-def pilot_samples(max_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
+def half_pilot_samples(max_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
     """
-    How many samples every pixel gets when at most max_samples are allowed.
+    How many samples each half of the pilot gives every pixel when at most max_samples are allowed.
     """
 
 def sample_counts(
-    blocks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     relative_error: typing.SupportsFloat | typing.SupportsIndex,
+    variance_left: typing.SupportsFloat | typing.SupportsIndex,
     max_samples: typing.SupportsInt | typing.SupportsIndex,
-) -> numpy.typing.NDArray[numpy.uint32]:
+) -> tuple:
     """
-    How many samples each pixel gets, (height, width), after a pilot that found the means `blocks` (height, width, n) of four samples each; what is not finite was left out.
+    After a pilot that found radiances `samples` (2, height, width, n), by halves: how many samples follow for each pixel (height, width), and what each half weighs in the picture (2, height, width).
     """

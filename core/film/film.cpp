@@ -4,20 +4,35 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/simd/batch.h"
+
 namespace pivot {
 namespace {
+
+/// Sums, number by number.
+void add_weighted(std::span<const Sample> samples, std::span<const float> weights, float scale, Sample& sum) {
+    constexpr std::size_t numbers = sizeof(Sample) / sizeof(float);
+    static_assert(numbers % batch_size == 0);
+    for (std::size_t first = 0; first < numbers; first += batch_size) {
+        Batch added(0.0f);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            added += Batch(weights[i]) * Batch::load_unaligned(reinterpret_cast<const float*>(&samples[i]) + first);
+        float* const to = reinterpret_cast<float*>(&sum) + first;
+        (Batch::load_unaligned(to) + Batch(scale) * added).store_unaligned(to);
+    }
+}
 
 void put(const Vec3f& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 void write_combined(const Pixel& pixel, float* out) {
-    put(pixel.sum.radiance * pixel.per_sample(), out);
-    out[3] = pixel.sum.alpha * pixel.per_sample();
+    put(pixel.samples.sum.radiance * pixel.samples.per_weight(), out);
+    out[3] = pixel.samples.sum.alpha * pixel.samples.per_weight();
 }
 
 /// A sum of three channels as its mean.
 template <Vec3f Sample::*sum>
 void write_mean(const Pixel& pixel, float* out) {
-    put(pixel.sum.*sum * pixel.per_sample(), out);
+    put(pixel.samples.sum.*sum * pixel.samples.per_weight(), out);
 }
 
 /// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
@@ -25,14 +40,14 @@ void write_mean(const Pixel& pixel, float* out) {
 float predicted_error(const Pixel& pixel) {
     constexpr float deviations = 2.0f;  // 19 pixels in 20 are within them
     constexpr float least_radiance = 1e-3f;
-    if (pixel.count == 0) return 0.0f;
-    const auto n = static_cast<float>(pixel.count);
-    const float sum = mean_component(pixel.sum.radiance);
+    const WeightedSum& samples = pixel.samples;
+    if (!(samples.weight > 0.0f)) return 0.0f;
+    const float n = samples.weight, mean = mean_component(samples.sum.radiance) / n;
     // One sample knows of its own rays only.
-    const float spread = n > 1.0f ? std::max(pixel.sum_of_squares - sum * sum / n, 0.0f) / (n - 1.0f) : 0.0f;
-    const float variance = std::max(spread, pixel.sum.shadow_variance / n);
-    const float error = pixel.sum.error / n + deviations * std::sqrt(variance) * std::pow(n, -0.75f);
-    return error / std::max(std::abs(sum / n), least_radiance);
+    const float spread = n > 1.5f ? std::max(samples.squared_radiance / n - sqr(mean), 0.0f) * n / (n - 1.0f) : 0.0f;
+    const float variance = std::max(spread, samples.sum.shadow_variance / n) * samples.squared_weight / n;
+    const float error = samples.sum.error / n + deviations * std::sqrt(variance) * std::pow(n, -0.75f);
+    return error / std::max(std::abs(mean), least_radiance);
 }
 
 constexpr Pass passes[] = {
@@ -50,6 +65,28 @@ constexpr Pass passes[] = {
 
 }  // namespace
 
+void WeightedSum::add(std::span<const Sample> samples, std::span<const float> weights,
+                      std::span<const float> squared_radiances, float scale) {
+    add_weighted(samples, weights, scale, sum);
+    float added = 0.0f, squared = 0.0f, radiance = 0.0f;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        added += weights[i];
+        squared += weights[i] * weights[i];
+        radiance += weights[i] * squared_radiances[i];
+    }
+    weight += scale * added;
+    squared_weight += scale * squared;
+    squared_radiance += scale * radiance;
+}
+
+void WeightedSum::add(const WeightedSum& other, float scale) {
+    constexpr float once = 1.0f;
+    add_weighted({&other.sum, 1}, {&once, 1}, scale, sum);
+    weight += scale * other.weight;
+    squared_weight += scale * other.squared_weight;
+    squared_radiance += scale * other.squared_radiance;
+}
+
 const Pass& find_pass(std::string_view name) {
     std::string known;
     for (const Pass& pass : passes) {
@@ -59,8 +96,7 @@ const Pass& find_pass(std::string_view name) {
     throw std::invalid_argument("there is no pass '" + std::string(name) + "'; choose one of " + known);
 }
 
-Film::Film(int width, int height)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+Film::Film(int width, int height) : grid_{width, height}, pixels_(grid_.size()) {}
 
 void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const {
     pixels.clear();
@@ -75,6 +111,17 @@ void Film::store(const Tile& tile, const std::vector<Pixel>& pixels) {
     for (int y = tile.y0; y < tile.y1; ++y) {
         const auto begin = pixels.begin() + (y - tile.y0) * width;
         std::copy(begin, begin + width, row(tile.x0, y));
+    }
+}
+
+void Film::merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights) {
+    const std::unique_lock lock(mutex_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        WeightedSum merged;
+        for (const auto& [samples, weight] :
+             {std::pair(pixels_[i].samples, own_weights[i]), std::pair(other.pixels_[i].samples, other_weights[i])})
+            merged.add(samples, weight * samples.per_weight());
+        pixels_[i].samples = merged;
     }
 }
 

@@ -1,4 +1,4 @@
-// What a render accumulates, per pixel of the window. Sums are kept with their counts, so a film can be read while it
+// What a render accumulates, per pixel of the window. Sums are kept with their weights, so a film can be read while it
 // grows; writers add whole tiles, readers see no half of one.
 #pragma once
 
@@ -33,14 +33,35 @@ struct CenterSample {
     Vec3f position{0.0f};
 };
 
-struct Pixel {
+/// Samples, each times its weight for a pixel.
+struct WeightedSum {
     Sample sum{.alpha = 0.0f};
-    CenterSample center;
-    float sum_of_squares = 0.0f;  ///< analytic: of the samples' mean radiance over colours
-    std::uint32_t count = 0;
+    float weight = 0.0f;
+    float squared_weight = 0.0f;
+    float squared_radiance = 0.0f;  ///< analytic: of the samples' mean over colours, each times its weight
+
+    /// Adds samples by their weights, all of it times `scale`. squared_radiances: of each sample.
+    void add(std::span<const Sample> samples, std::span<const float> weights, std::span<const float> squared_radiances,
+             float scale);
+    void add(const WeightedSum& other, float scale);
 
     /// What a sum is multiplied by for its mean; 0 without samples.
-    float per_sample() const { return count > 0 ? 1.0f / static_cast<float>(count) : 0.0f; }
+    float per_weight() const { return weight > 0.0f ? 1.0f / weight : 0.0f; }
+};
+
+struct Pixel {
+    WeightedSum samples;
+    CenterSample center;
+};
+
+/// A grid of pixels, row by row.
+struct PixelGrid {
+    int width, height;
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    }
+    std::size_t size() const { return index(0, height); }
 };
 
 struct Tile {
@@ -61,23 +82,25 @@ class Film {
    public:
     Film(int width, int height);
 
-    int width() const { return width_; }
-    int height() const { return height_; }
+    const PixelGrid& grid() const { return grid_; }
+    int width() const { return grid_.width; }
+    int height() const { return grid_.height; }
 
     /// A copy of a tile's pixels, row by row, for a worker to add samples to.
     void load(const Tile& tile, std::vector<Pixel>& pixels) const;
     void store(const Tile& tile, const std::vector<Pixel>& pixels);
 
+    /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
+    void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
+
     /// A pass as height x width x channels, bottom row first.
     std::vector<float> read(const Pass& pass) const;
 
    private:
-    Pixel* row(int x, int y) {
-        return &pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-    }
+    Pixel* row(int x, int y) { return &pixels_[grid_.index(x, y)]; }
     const Pixel* row(int x, int y) const { return const_cast<Film*>(this)->row(x, y); }
 
-    int width_, height_;
+    PixelGrid grid_;
     std::vector<Pixel> pixels_;
     mutable std::shared_mutex mutex_;  ///< shared by writers, whose tiles are disjoint; owned by a reader
 };

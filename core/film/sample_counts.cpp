@@ -4,39 +4,138 @@
 #include <cmath>
 
 namespace pivot {
+namespace {
 
-std::uint32_t pilot_samples(std::uint32_t max_samples) {
-    constexpr std::uint32_t least = 16;
-    return std::min(max_samples, std::max(least, max_samples / 4 / pilot_block * pilot_block));
-}
-
-std::vector<std::uint32_t> sample_counts(std::span<const Pilot> pilots, int width, float relative_error,
-                                         std::uint32_t max_samples) {
-    const int height = static_cast<int>(pilots.size()) / width;
-    const std::uint32_t least = pilot_samples(max_samples);
-    std::vector<std::uint32_t> counts(pilots.size(), max_samples);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            float variance = 0.0f, mean = 0.0f, neighbours = 0.0f;
-            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
-                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-                    const Pilot& pilot = pilots[static_cast<std::size_t>(v * width + u)];
-                    if ((u == x && v == y) || pilot.blocks < 2) continue;
-                    const auto n = static_cast<float>(pilot.blocks);
-                    variance += std::max(pilot.sum_of_squares - pilot.sum * pilot.sum / n, 0.0f) / (n - 1.0f);
-                    mean += pilot.sum / n;
-                    neighbours += 1.0f;
-                }
-            }
-            if (neighbours == 0.0f) continue;
-            variance *= static_cast<float>(pilot_block) / neighbours;  // of one sample
-            const float scale = relative_error * std::max(mean / neighbours, 0.1f);
-            const float wanted = std::ceil(variance / (scale * scale));
-            if (wanted < static_cast<float>(max_samples)) {
-                counts[static_cast<std::size_t>(y * width + x)] = std::max(static_cast<std::uint32_t>(wanted), least);
-            }
+/// Means over squares of pixels, 2 reach + 1 wide, as far as these are in the grid.
+std::vector<float> means_around(std::span<const float> values, const PixelGrid& grid, int reach) {
+    // Sums of sums lose nothing beside a pixel that is a million times brighter, as differences of running ones would.
+    std::vector<float> along_x(grid.size()), means(grid.size());
+    for (int y = 0; y < grid.height; ++y) {
+        for (int x = 0; x < grid.width; ++x) {
+            const int first = std::max(x - reach, 0), last = std::min(x + reach, grid.width - 1);
+            for (int u = first; u <= last; ++u) along_x[grid.index(x, y)] += values[grid.index(u, y)];
+            along_x[grid.index(x, y)] /= static_cast<float>(last - first + 1);
         }
     }
+    for (int y = 0; y < grid.height; ++y) {
+        const int first = std::max(y - reach, 0), last = std::min(y + reach, grid.height - 1);
+        for (int x = 0; x < grid.width; ++x) {
+            for (int v = first; v <= last; ++v) means[grid.index(x, y)] += along_x[grid.index(x, v)];
+            means[grid.index(x, y)] /= static_cast<float>(last - first + 1);
+        }
+    }
+    return means;
+}
+
+/// Of one sample of each pixel, relative to its radiance, as it and those beside it have it. Of what came once, and as
+/// a surprise to all of these, the mean over the pixels far around.
+std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelGrid& grid, float variance_left) {
+    constexpr float least_radiance = 0.1f;
+    constexpr float foreseen = 4.0f;  // times the variance of the other samples
+    constexpr int far_px = 16;
+    std::vector<float> own(grid.size()), others(grid.size()), radiance(grid.size()), surprise(grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        own[i] = pilot[i].variance();
+        others[i] = pilot[i].variance_without_most();
+        radiance[i] = std::abs(pilot[i].mean());
+    }
+    radiance = means_around(radiance, grid, 1);
+    others = means_around(others, grid, 1);
+    std::vector<float> variances = means_around(own, grid, 1);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const float scale = variance_left / sqr(std::max(radiance[i], least_radiance));
+        surprise[i] = scale * std::max(own[i] - foreseen * others[i], 0.0f);
+        variances[i] *= scale;
+    }
+    surprise = means_around(surprise, grid, far_px);
+    for (std::size_t i = 0; i < grid.size(); ++i) variances[i] += surprise[i];
+    return variances;
+}
+
+/// How many samples a pixel of some variance gets: in proportion to its standard deviation.
+struct Allotment {
+    float wanted;  ///< error squared
+    float least, most;
+    float per_deviation;
+
+    float operator()(float variance) const {
+        const float enough = worst * variance / wanted;  // for a quarter of the error wanted
+        return std::clamp(std::min(std::sqrt(variance) * per_deviation, enough), least, most);
+    }
+    /// The mean of the pixels' squared errors. What even the most samples leave of a few is not made good for by
+    /// others.
+    float error_of(std::span<const float> variances) const {
+        double error = 0.0;
+        for (const float variance : variances)
+            error += static_cast<double>(std::min(variance / (*this)(variance), worst * wanted));
+        return static_cast<float>(error / static_cast<double>(variances.size()));
+    }
+
+   private:
+    static constexpr float worst = 16.0f;
+};
+
+/// The least that makes the error.
+Allotment allot(std::span<const float> variances, float relative_error, float least, float most) {
+    Allotment allotment{sqr(relative_error), least, most, 0.0f};
+    float low = 1e-3f, high = 1e6f;
+    for (int step = 0; step < 40; ++step) {
+        allotment.per_deviation = std::sqrt(low * high);
+        (allotment.error_of(variances) <= allotment.wanted ? high : low) = allotment.per_deviation;
+    }
+    return allotment;
+}
+
+}  // namespace
+
+void Pilot::add(float radiance) {
+    block_ += radiance / samples_per_block;
+    if (++samples_ % samples_per_block != 0) return;
+    sum_ += block_;
+    sum_of_squares_ += sqr(block_);
+    most_ = blocks_ == 0 ? block_ : std::max(most_, block_);
+    ++blocks_;
+    block_ = 0.0f;
+}
+
+float Pilot::variance_of(float sum, float sum_of_squares, std::uint32_t blocks) {
+    if (static_cast<int>(blocks) < 2) return 0.0f;
+    const auto n = static_cast<float>(blocks);
+    return samples_per_block * std::max(sum_of_squares - sum * sum / n, 0.0f) / (n - 1.0f);
+}
+
+std::uint32_t half_pilot_samples(std::uint32_t max_samples) {
+    constexpr std::uint32_t least = 8, most = 16;
+    return std::min(std::clamp(max_samples / 128, least, most), (max_samples + 1) / 2);
+}
+
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float relative_error,
+                           float variance_left, std::uint32_t max_samples) {
+    const auto least = static_cast<float>(2 * half_pilot_samples(max_samples));
+    const float most = std::max(static_cast<float>(max_samples), least);
+    const std::array<std::vector<float>, 2> halves{relative_variances(pilot[0], grid, variance_left),
+                                                   relative_variances(pilot[1], grid, variance_left)};
+    std::vector<float> variances;
+    for (std::size_t i = 0; i < grid.size(); ++i) variances.push_back(0.5f * (halves[0][i] + halves[1][i]));
+
+    const Allotment samples_of = allot(variances, relative_error, least, most);
+    SampleCounts counts;
+    std::vector<std::uint32_t> further(grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        // As many as either half asks for, whose weights count on them.
+        for (const std::size_t half : {0, 1}) {
+            const float samples = samples_of(halves[half][i]);
+            counts.half_weight[1 - half].push_back(0.5f * least / samples);
+            further[i] = std::max(further[i], static_cast<std::uint32_t>(std::ceil(samples - least)));
+        }
+    }
+    counts.further = further;
+    for (int y = 0; y < grid.height; ++y)
+        for (int x = 0; x < grid.width; ++x)
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, grid.height - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, grid.width - 1); ++u)
+                    counts.further[grid.index(x, y)] =
+                        std::max(counts.further[grid.index(x, y)], (further[grid.index(u, v)] + 3) / 4);
     return counts;
 }
 

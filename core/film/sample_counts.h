@@ -1,36 +1,52 @@
-// How many samples each pixel gets under adaptive sampling, from a pilot that all pixels have. A pixel's count follows
-// from its neighbours' pilots alone: its own samples do not decide when it stops, so the picture stays unbiased.
+// How many samples each pixel gets under adaptive sampling, from a pilot that all have. Samples go where they lower the
+// error of the whole picture most: a pixel's are in proportion to its standard deviation, relative to its radiance.
+//
+// The pilot has two halves that know nothing of each other. How much one half's samples weigh beside those that follow
+// is decided by the other half's spread, so that no sample decides its own weight, and the picture stays unbiased.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/film/film.h"
+
 namespace pivot {
 
-/// Successive samples that are averaged before their spread is taken: evenly placed points do better than their single
-/// samples show.
-inline constexpr std::uint32_t pilot_block = 4;
+/// The spread of a pixel's blocks of successive samples, each the mean radiance over its samples and colours: evenly
+/// placed points do better than their single samples show.
+class Pilot {
+   public:
+    void add(float radiance);
+    float mean() const { return blocks_ > 0 ? sum_ / static_cast<float>(blocks_) : 0.0f; }
+    /// Of one sample as blocks of them have it; 0 of fewer than two blocks.
+    float variance() const { return variance_of(sum_, sum_of_squares_, blocks_); }
+    /// The same without the brightest block.
+    float variance_without_most() const { return variance_of(sum_ - most_, sum_of_squares_ - sqr(most_), blocks_ - 1); }
 
-/// The spread of a pixel's blocks, each the mean radiance over its samples and colours.
-struct Pilot {
-    float sum = 0.0f;
-    float sum_of_squares = 0.0f;
-    std::uint32_t blocks = 0;
+   private:
+    static constexpr std::uint32_t samples_per_block = 2;
+    static float variance_of(float sum, float sum_of_squares, std::uint32_t blocks);
 
-    void add(float block) {
-        sum += block;
-        sum_of_squares += block * block;
-        blocks += 1;
-    }
+    float block_ = 0.0f, sum_ = 0.0f, sum_of_squares_ = 0.0f, most_ = 0.0f;
+    std::uint32_t samples_ = 0, blocks_ = 0;
 };
 
-/// Samples of the pilot itself when at most max_samples are allowed.
-std::uint32_t pilot_samples(std::uint32_t max_samples);
+/// Samples of half a pilot when at most max_samples are allowed.
+std::uint32_t half_pilot_samples(std::uint32_t max_samples);
 
-/// Counts from the pilot's to max_samples that bring each pixel's standard error to relative_error of its radiance, or
-/// of 0.1 where it is darker. pilots: row by row, width to a row.
-std::vector<std::uint32_t> sample_counts(std::span<const Pilot> pilots, int width, float relative_error,
-                                         std::uint32_t max_samples);
+/// For each pixel.
+struct SampleCounts {
+    std::vector<std::uint32_t> further;             ///< samples that are to follow the pilot's
+    std::array<std::vector<float>, 2> half_weight;  ///< of each half of the pilot in the picture; what is left: theirs
+};
+
+/// So that the mean squared error over all pixels, each relative to its radiance, or to 0.1 where it is darker, is
+/// relative_error^2, with at most max_samples a pixel. variance_left: that of a picture's pixel, times its samples,
+/// over a sample's. A pixel has no fewer than a quarter of the samples of those beside it, which its own serve too; and
+/// what only one block of a pixel met, and none beside it, may be met anywhere near.
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float relative_error,
+                           float variance_left, std::uint32_t max_samples);
 
 }  // namespace pivot

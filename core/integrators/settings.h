@@ -24,12 +24,12 @@ struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
     std::uint32_t samples = 64;
-    bool adaptive = false;  ///< Monte Carlo: a pixel stops at the error budget, samples is the most it gets
+    bool adaptive = false;  ///< Monte Carlo: samples go where they help the picture most, until it meets the budget
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;      ///< 0: direct light only
     float clamp_indirect = 0.0f;        ///< the mean over colours that light which bounced adds at once; 0: no bound
     float filter_glossy = 0.0f;         ///< blurs what is met after BSDF samples of a density below this; 0: nothing
-    float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show
+    float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show; adaptive: what noise may be left
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;
     float time_limit_s = 0.0f;  ///< 0: none

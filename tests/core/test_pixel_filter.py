@@ -1,15 +1,16 @@
-"""Samples in the pixel follow its filter's window."""
+"""Samples in a pixel, weighed for the pixels around, follow each pixel's window."""
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pivot_core.film import filter_offsets
+from pivot_core.film import filter_samples
 from scipy.stats import chi2
 
 from tests.core.chi_squared import random_squares
 
 # Blackman-Harris: sums of cosines, as in [Harris78, table I]
 TERMS = np.array([0.35875, -0.48829, 0.14128, -0.01168])
+WIDTHS_PX = [0.7, 1.0, 1.5, 3.0, 5.2]
 
 
 def blackman_harris_cdf(x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -18,40 +19,73 @@ def blackman_harris_cdf(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return x + (np.sin(np.multiply.outer(x, k)) * TERMS[1:] / k).sum(-1) / TERMS[0]
 
 
-@pytest.mark.parametrize("width_px", [0.7, 1.5, 3.0])
-def test_offsets_follow_the_window(width_px: float) -> None:
+def box_cdf(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    return x
+
+
+CDFS = {"BLACKMAN_HARRIS": blackman_harris_cdf, "BOX": box_cdf}
+
+
+@pytest.mark.parametrize("width_px", WIDTHS_PX)
+@pytest.mark.parametrize("shape", CDFS)
+def test_what_a_pixel_is_given_follows_its_window(shape: str, width_px: float) -> None:
+    """The weights that one pixel gets from its own samples and those around, over bins of where these lie from it."""
     u = random_squares(40_000)
+    offsets, weights, _ = filter_samples(shape, width_px, u)
+    reach = weights.shape[-1] // 2
     edges = np.linspace(0, 1, 33)
-    expected = len(u) * np.diff(blackman_harris_cdf(edges))
-    for offsets in filter_offsets("BLACKMAN_HARRIS", width_px, u).T:
-        counts, _ = np.histogram(offsets / width_px + 0.5, edges)
-        used = expected > 5
-        statistic = ((counts - expected)[used] ** 2 / expected[used]).sum()
-        assert chi2.sf(statistic, used.sum() - 1) > 1e-4
-        assert counts[~used].sum() <= 5 * len(u) ** 0.5
+    expected = np.diff(CDFS[shape](edges))
+    for axis in (0, 1):
+        # A sample of the pixel `off` away lies that much further.
+        places = offsets[:, axis, None] - np.arange(-reach, reach + 1)
+        bins = [
+            ((places >= low) & (places < high)) * weights[:, axis]
+            for low, high in zip((edges[:-1] - 0.5) * width_px, (edges[1:] - 0.5) * width_px, strict=True)
+        ]
+        per_sample = np.array([b.sum(-1) for b in bins])  # (bins, samples)
+        deviation = per_sample.std(-1) / len(u) ** 0.5
+        seen = expected * len(u) > 20
+        z = (per_sample.mean(-1) - expected)[seen] / deviation[seen]
+        assert chi2.sf((z**2).sum(), seen.sum()) > 1e-4
+        assert per_sample[~seen].mean(-1).sum() < 0.01
 
 
-def test_the_table_is_exact_at_its_nodes() -> None:
-    u = np.arange(1024) / 1024
-    places = filter_offsets("BLACKMAN_HARRIS", 1.0, np.stack([u, u], 1))[:, 0].astype(np.float64) + 0.5
-    np.testing.assert_allclose(blackman_harris_cdf(places), u, atol=1e-5)
+@pytest.mark.parametrize("width_px", WIDTHS_PX)
+@pytest.mark.parametrize("shape", CDFS)
+def test_a_sample_is_worth_one_in_all_and_lies_in_its_pixel(shape: str, width_px: float) -> None:
+    offsets, weights, _ = filter_samples(shape, width_px, random_squares(1000))
+    np.testing.assert_allclose(weights.sum(-1), 1.0, rtol=1e-6)
+    assert (weights >= 0).all()
+    assert np.abs(offsets).max() <= 0.5 * min(width_px, 1.0)
+    assert weights.shape[-1] == 1 + 2 * max(int(np.ceil(width_px / 2 - 0.5)), 0)
 
 
-@pytest.mark.parametrize("shape", ["BLACKMAN_HARRIS", "BOX"])
-def test_offsets_stay_within_the_width_and_each_axis_has_its_own_number(shape: str) -> None:
+@pytest.mark.parametrize("width_px", WIDTHS_PX)
+def test_the_variance_left_is_that_of_the_weights(width_px: float) -> None:
+    """Blender's default filter is three pixels wide, and leaves less than half."""
+    _, weights, left = filter_samples("BLACKMAN_HARRIS", width_px, random_squares(40_000))
+    np.testing.assert_allclose((weights**2).sum(-1).mean(0), left**0.5, rtol=5e-3)
+    assert left < 0.46 or width_px < 3.0
+
+
+def test_each_axis_has_its_own_number() -> None:
     last = np.nextafter(np.float32(1), np.float32(0))
     u = np.array([[0, last], [last, 0], [0.5, 0.5], [0.25, 0.75]], np.float32)
-    offsets = filter_offsets(shape, 2.0, u)
-    assert np.abs(offsets).max() <= 1
-    np.testing.assert_allclose(offsets[:2], [[-1, 1], [1, -1]], atol=0.03)
+    offsets, _, _ = filter_samples("BLACKMAN_HARRIS", 3.0, u)
+    np.testing.assert_allclose(offsets[:2], [[-0.5, 0.5], [0.5, -0.5]], atol=1e-4)
     np.testing.assert_allclose(offsets[2], 0, atol=1e-6)
     np.testing.assert_allclose(offsets[3, 0], -offsets[3, 1], rtol=1e-4)
 
 
-def test_the_box_is_even() -> None:
+def test_a_box_of_one_pixel_is_even_and_its_own() -> None:
     u = random_squares(1000)
-    np.testing.assert_allclose(filter_offsets("BOX", 1.5, u), 1.5 * (u - 0.5), atol=1e-6)
+    offsets, weights, left = filter_samples("BOX", 1.0, u)
+    np.testing.assert_allclose(offsets, u - 0.5, atol=1e-6)
+    np.testing.assert_array_equal(weights, 1)
+    assert left == 1
 
 
 def test_no_width_is_the_centre() -> None:
-    np.testing.assert_array_equal(filter_offsets("BLACKMAN_HARRIS", 0.0, random_squares(100)), 0)
+    offsets, weights, _ = filter_samples("BLACKMAN_HARRIS", 0.0, random_squares(100))
+    np.testing.assert_array_equal(offsets, 0)
+    np.testing.assert_array_equal(weights, 1)

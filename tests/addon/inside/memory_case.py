@@ -26,7 +26,7 @@ def main(folder: Path) -> Any:
     before = _peak_bytes()
     parts.size(SIDE_PX, SIDE_PX)
     render(folder / "large.png")
-    film = native.Session.bytes_per_pixel
+    film = native.Session.bytes_per_pixel(False)
     return {
         "taken": _peak_bytes() - before,
         "estimate": memory.picture_bytes(SIDE_PX, SIDE_PX, film, [channels(layer)]),

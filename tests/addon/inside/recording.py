@@ -230,9 +230,12 @@ class Scene:
 
 
 class Session:
-    bytes_per_pixel = 88
     progress = 1.0
     bad_samples: tuple[str, ...] = ()
+
+    @staticmethod
+    def bytes_per_pixel(adaptive: bool) -> int:
+        return 88
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None:
         scene.recording.settings = settings
