@@ -91,8 +91,8 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
         pivot = context.scene.pivot
         layout.prop(pivot, "integrator")
         layout.prop(pivot, "samples")
+        layout.prop(pivot, "adaptive")
         if pivot.integrator == "MONTE_CARLO":
-            layout.prop(pivot, "adaptive")
             budget = layout.column()
             budget.active = pivot.adaptive
             budget.prop(pivot, "error_budget")

@@ -19,10 +19,10 @@ py::tuple filter_samples(const std::string& pixel_filter, float width_px, const 
         std::ranges::copy(sample.weights_x, weights.mutable_data(i, 0));
         std::ranges::copy(sample.weights_y, weights.mutable_data(i, 1));
     }
-    return py::make_tuple(offsets, weights, filter.variance_left());
+    return py::make_tuple(offsets, weights);
 }
 
-py::tuple sample_counts_of(const FloatArray& samples, float relative_error, float variance_left,
+py::tuple sample_counts_of(const FloatArray& samples, float half_error, float relative_error,
                            std::uint32_t max_samples) {
     require_shape(samples, "samples", {2, -1, -1, -1});
     const PixelGrid grid{static_cast<int>(samples.shape(2)), static_cast<int>(samples.shape(1))};
@@ -33,7 +33,7 @@ py::tuple sample_counts_of(const FloatArray& samples, float relative_error, floa
         for (Pilot& pixel : half)
             for (py::ssize_t i = 0; i < samples.shape(3); ++i) pixel.add(*sample++);
     }
-    const SampleCounts counts = sample_counts(pilot, grid, relative_error, variance_left, max_samples);
+    const SampleCounts counts = sample_counts(pilot, grid, half_error, relative_error, max_samples);
     py::array_t<float> weights({py::ssize_t(2), samples.shape(1), samples.shape(2)});
     for (const std::size_t half : {0, 1})
         std::ranges::copy(counts.half_weight[half], weights.mutable_data(static_cast<py::ssize_t>(half)));
@@ -46,15 +46,15 @@ py::tuple sample_counts_of(const FloatArray& samples, float relative_error, floa
 void register_film(py::module_& film) {
     film.def("filter_samples", &filter_samples, py::arg("pixel_filter"), py::arg("width_px"), py::arg("u"),
              "For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, "
-             "k) along x and y for the k pixels around and including it; the variance that a pixel has, times its "
-             "samples, over that of one sample.");
+             "k) along x and y for the k pixels around and including it.");
     film.def("half_pilot_samples", &half_pilot_samples, py::arg("max_samples"),
              "How many samples each half of the pilot gives every pixel when at most max_samples are allowed.");
     film.def(
-        "sample_counts", &sample_counts_of, py::arg("samples"), py::arg("relative_error"), py::arg("variance_left"),
+        "sample_counts", &sample_counts_of, py::arg("samples"), py::arg("half_error"), py::arg("relative_error"),
         py::arg("max_samples"),
-        "After a pilot that found radiances `samples` (2, height, width, n), by halves: how many samples follow for "
-        "each pixel (height, width), and what each half weighs in the picture (2, height, width).");
+        "After a pilot that found radiances `samples` (2, height, width, n), by halves, whose pictures have the mean "
+        "squared error half_error: how many samples follow for each pixel (height, width), and what each half weighs "
+        "in the picture (2, height, width).");
 }
 
 }  // namespace pivot::bindings

@@ -39,10 +39,6 @@ std::array<std::vector<Tile>, 4> make_tiles(const Window& window, int reach_px) 
     return tiles;
 }
 
-bool is_adaptive(const RenderSettings& settings) {
-    return settings.adaptive && settings.integrator == Integrator::monte_carlo;
-}
-
 bool is_finite(const Sample& s) {
     const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
@@ -121,38 +117,46 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    if (is_adaptive(settings_))
+    if (settings_.adaptive)
         render_adaptively();
     else
         render_round({.film = film_, .seed = settings_.seed}, settings_.samples);
 }
 
 void Session::render_adaptively() {
-    const std::uint32_t half = half_pilot_samples(settings_.samples);
+    const bool analytic = settings_.integrator == Integrator::analytic;
+    const std::uint32_t half = half_pilot_samples(settings_.samples), whole = 2 * half;
     Film other_film(film_.width(), film_.height());
     std::array<std::vector<Pilot>, 2> pilot;
+    // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
+    const auto round_of = [&](std::uint32_t number, Film& film) {
+        return Round{.film = film, .seed = hash(settings_.seed, number), .first_index = analytic ? number * half : 0};
+    };
     for (const std::uint32_t number : {0u, 1u}) {
         pilot[number].resize(squares_.size());
-        const Round round{
-            .film = number == 0 ? film_ : other_film, .seed = hash(settings_.seed, number), .pilot = pilot[number]};
+        Round round = round_of(number, number == 0 ? film_ : other_film);
+        round.pilot = pilot[number];
         if (!render_round(round, half)) return;
     }
-    const auto [further, half_weight] = sample_counts(pilot, squares_, 0.01f * settings_.error_budget_percent,
-                                                      filter_.variance_left(), settings_.samples);
-    std::array<std::vector<float>, 2> weights;  // of the halves, then of what follows them, in each pixel
+    const float error = 0.01f * settings_.error_budget_percent;
+    const float half_error = film_.squared_error_beside(other_film, least_radiance);
+    const auto [further, half_weight] = sample_counts(pilot, squares_, half_error, error, settings_.samples);
+    // What a pixel weighs in all is how many samples it has.
+    std::array<std::vector<float>, 2> weights;
     std::vector<float> weight_left;
     for (int y = 0; y < film_.height(); ++y) {
         for (int x = 0; x < film_.width(); ++x) {
             const std::size_t square = squares_.index(x + filter_.reach_px(), y + filter_.reach_px());
-            for (const std::size_t number : {0, 1}) weights[number].push_back(half_weight[number][square]);
-            weight_left.push_back(1.0f - weights[0].back() - weights[1].back());
+            const auto all = static_cast<float>(whole + further[square]);
+            for (const std::size_t number : {0, 1}) weights[number].push_back(all * half_weight[number][square]);
+            weight_left.push_back(all - weights[0].back() - weights[1].back());
         }
     }
     film_.merge(other_film, weights[0], weights[1]);
-    const std::uint64_t rest = std::accumulate(further.begin(), further.end(), std::uint64_t{0});
-    total_pixel_samples_ = pixel_samples_done_ + rest;
-    const Round round{.film = film_, .seed = hash(settings_.seed, 2u), .counts = further, .weights = weight_left};
-    if (render_round(round, *std::ranges::max_element(further))) samples_done_ = settings_.samples;
+    total_pixel_samples_ = pixel_samples_done_ + std::accumulate(further.begin(), further.end(), std::uint64_t{0});
+    Round rest = round_of(2, film_);
+    rest.counts = further, rest.weights = weight_left;
+    if (render_round(rest, *std::ranges::max_element(further))) samples_done_ = settings_.samples;
 }
 
 /// Successive samples, where they lie in each pixel, and what they weigh for each of those around it, row by row.
@@ -165,15 +169,15 @@ struct Session::Pass {
     std::uint32_t first_sample, last_sample;
     std::vector<Places> places;  ///< squares take one or another
 
-    Pass(std::uint32_t first, std::uint32_t last, const PixelFilter& filter, std::uint32_t seed,
-         std::uint32_t place_count)
+    Pass(std::uint32_t first, std::uint32_t last, std::uint32_t first_index, const PixelFilter& filter,
+         std::uint32_t seed, std::uint32_t place_count)
         : first_sample(first), last_sample(last) {
         const auto across = static_cast<std::size_t>(2 * filter.reach_px() + 1);
         for (std::uint32_t k = 0; k < place_count; ++k) {
             Places& of_one = places.emplace_back();
             of_one.weights.resize(across * across);
             for (std::uint32_t index = first; index < last; ++index) {
-                const FilterSample sample = filter.sample(Sampler{hash(seed, k), index}.point(0));
+                const FilterSample sample = filter.sample(Sampler{hash(seed, k), first_index + index}.point(0));
                 of_one.offsets.push_back(sample.offset);
                 for (std::size_t y = 0; y < across; ++y)
                     for (std::size_t x = 0; x < across; ++x)
@@ -194,7 +198,8 @@ bool Session::render_round(const Round& round, std::uint32_t samples) {
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
         const std::uint32_t count = std::min({std::max(done, 1u), most, samples - done});
-        const Pass pass(done, done + count, filter_, seed, is_adaptive(settings_) ? places_when_adaptive : 1u);
+        const Pass pass(done, done + count, round.first_index, filter_, seed,
+                        settings_.adaptive ? places_when_adaptive : 1u);
         for (const std::vector<Tile>& of_one_colour : tiles)
             tbb::parallel_for_each(of_one_colour, [&](const Tile& tile) { render_tile(round, pass, tile); });
         if (should_stop()) return false;
@@ -259,6 +264,24 @@ void Session::render_tile(const Round& round, const Pass& pass, const Tile& tile
     pixel_samples_done_ += samples_added;
 }
 
+void Session::shade_by_index(std::span<const Ray> rays, std::span<const Sampler> samplers,
+                             std::span<Sample> samples) const {
+    std::vector<std::size_t> order(rays.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return samplers[i].sample; });
+    std::vector<Ray> together;
+    std::vector<Sample> shaded;
+    for (std::size_t first = 0; first < order.size(); first += together.size()) {
+        const std::uint32_t index = samplers[order[first]].sample;
+        together.clear();
+        for (std::size_t i = first; i < order.size() && samplers[order[i]].sample == index; ++i)
+            together.push_back(rays[order[i]]);
+        shaded.resize(together.size());
+        shade_analytic(*scene_, settings_, together, index, shaded);
+        for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
+    }
+}
+
 std::vector<Sample> Session::sample_row(const Round& round, const Pass& pass, int x0, int x1, int y) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
@@ -274,21 +297,14 @@ std::vector<Sample> Session::sample_row(const Round& round, const Pass& pass, in
         const std::vector<Vec2f>& offsets = pass.places_of(square).offsets;
         for (std::size_t k = 0; k < count; ++k) {
             rays.push_back(camera.ray(center + offsets[k]));
-            samplers.emplace_back(hash(place, round.seed), pass.first_sample + static_cast<std::uint32_t>(k));
+            samplers.emplace_back(hash(place, round.seed),
+                                  round.first_index + pass.first_sample + static_cast<std::uint32_t>(k));
         }
     }
     std::vector<Sample> samples(rays.size());
     if (rays.empty()) return samples;
     if (settings_.integrator == Integrator::analytic) {
-        // Samples of one index go together in a batch: they share what is known by it.
-        const std::size_t count = pass.last_sample - pass.first_sample, width = rays.size() / count;
-        std::vector<Ray> of_one_index(width);
-        std::vector<Sample> shaded(width);
-        for (std::size_t k = 0; k < count; ++k) {
-            for (std::size_t i = 0; i < width; ++i) of_one_index[i] = rays[i * count + k];
-            shade_analytic(*scene_, settings_, of_one_index, samplers[k].sample, shaded);
-            for (std::size_t i = 0; i < width; ++i) samples[i * count + k] = shaded[i];
-        }
+        shade_by_index(rays, samplers, samples);
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
     }

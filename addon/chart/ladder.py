@@ -41,7 +41,7 @@ _BUDGETS = (10.0, 5.0, 2.0, 1.0, 0.5)
 
 
 def pivot_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], budget_samples: int) -> Iterator[Rung]:
-    """monte_carlo, analytic: the samples of each point. budget_samples: of the line along the error budget."""
+    """monte_carlo, analytic: the samples of each point. budget_samples: the most along the error budget."""
     for name, method in _MONTE_CARLO.items():
         for samples in monte_carlo:
             settings = {"integrator": "MONTE_CARLO", "light_sampling": name}
@@ -51,7 +51,7 @@ def pivot_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], budget_
             settings = {"integrator": "ANALYTIC", "analytic_method": name, "error_budget": 2.0}
             yield Rung("PIVOT", method, f"{samples}", samples, settings)
     for budget in _BUDGETS:
-        settings = {"integrator": "ANALYTIC", "analytic_method": "AUTO", "error_budget": budget}
+        settings = {"integrator": "ANALYTIC", "analytic_method": "AUTO", "error_budget": budget, "adaptive": True}
         yield Rung("PIVOT", "Analytic, by budget", f"{budget:g} %", budget_samples, settings)
 
 
@@ -60,7 +60,7 @@ def cycles_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
         yield Rung("CYCLES", "Cycles", f"{count}", count)
 
 
-FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 16), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
-PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 16)), 160, 1024)
+FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 256), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
+PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 64)), 160, 1024)
 SMALL = Ladder((*pivot_rungs((1, 8), (1,), 4), *cycles_rungs((1, 8))), 32, 128)
 LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL}

@@ -15,7 +15,7 @@ def filter_samples(
     u: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
 ) -> tuple:
     """
-    For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, k) along x and y for the k pixels around and including it; the variance that a pixel has, times its samples, over that of one sample.
+    For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, k) along x and y for the k pixels around and including it.
     """
 
 def half_pilot_samples(max_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
@@ -25,10 +25,10 @@ def half_pilot_samples(max_samples: typing.SupportsInt | typing.SupportsIndex) -
 
 def sample_counts(
     samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    half_error: typing.SupportsFloat | typing.SupportsIndex,
     relative_error: typing.SupportsFloat | typing.SupportsIndex,
-    variance_left: typing.SupportsFloat | typing.SupportsIndex,
     max_samples: typing.SupportsInt | typing.SupportsIndex,
 ) -> tuple:
     """
-    After a pilot that found radiances `samples` (2, height, width, n), by halves: how many samples follow for each pixel (height, width), and what each half weighs in the picture (2, height, width).
+    After a pilot that found radiances `samples` (2, height, width, n), by halves, whose pictures have the mean squared error half_error: how many samples follow for each pixel (height, width), and what each half weighs in the picture (2, height, width).
     """

@@ -75,7 +75,7 @@ void WeightedSum::add(std::span<const Sample> samples, std::span<const float> we
         radiance += weights[i] * squared_radiances[i];
     }
     weight += scale * added;
-    squared_weight += scale * squared;
+    squared_weight += sqr(scale) * squared;
     squared_radiance += scale * radiance;
 }
 
@@ -83,7 +83,7 @@ void WeightedSum::add(const WeightedSum& other, float scale) {
     constexpr float once = 1.0f;
     add_weighted({&other.sum, 1}, {&once, 1}, scale, sum);
     weight += scale * other.weight;
-    squared_weight += scale * other.squared_weight;
+    squared_weight += sqr(scale) * other.squared_weight;
     squared_radiance += scale * other.squared_radiance;
 }
 
@@ -123,6 +123,19 @@ void Film::merge(const Film& other, std::span<const float> own_weights, std::spa
             merged.add(samples, weight * samples.per_weight());
         pixels_[i].samples = merged;
     }
+}
+
+float Film::squared_error_beside(const Film& other, float least_radiance) const {
+    const auto radiance_of = [](const Pixel& pixel) {
+        return mean_component(pixel.samples.sum.radiance) * pixel.samples.per_weight();
+    };
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const float own = radiance_of(pixels_[i]), others = radiance_of(other.pixels_[i]);
+        const float scale = std::max(0.5f * std::abs(own + others), least_radiance);
+        sum += static_cast<double>(0.5f * sqr((own - others) / scale));
+    }
+    return static_cast<float>(sum / static_cast<double>(pixels_.size()));
 }
 
 std::vector<float> Film::read(const Pass& pass) const {

@@ -93,6 +93,10 @@ class Film {
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
+    /// The mean squared error of one of two films that were made alike, relative to the pixels' radiance, or to
+    /// least_radiance where it is darker.
+    float squared_error_beside(const Film& other, float least_radiance) const;
+
     /// A pass as height x width x channels, bottom row first.
     std::vector<float> read(const Pass& pass) const;
 

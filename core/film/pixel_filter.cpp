@@ -24,18 +24,12 @@ PixelFilter::PixelFilter(PixelFilterShape shape, float width_px)
     const double side = std::min(width_px_, 1.0);  // of the square in which samples fall
     const auto place_of = [&](double step) { return side * (step / steps - 0.5); };
     std::vector<double> cumulative{0.0};
-    double squares = 0.0;  // of the filter, over the sum
     for (std::size_t i = 0; i < steps; ++i) {
-        double sum = 0.0, sum_of_squares = 0.0;
-        for (int pixel = -reach_px_; pixel <= reach_px_; ++pixel) {
-            const double at_pixel = density(place_of(static_cast<double>(i) + 0.5) - pixel);
-            sum += at_pixel;
-            sum_of_squares += at_pixel * at_pixel;
-        }
+        double sum = 0.0;
+        for (int pixel = -reach_px_; pixel <= reach_px_; ++pixel)
+            sum += density(place_of(static_cast<double>(i) + 0.5) - pixel);
         cumulative.push_back(cumulative.back() + sum);
-        squares += sum_of_squares / sum;
     }
-    variance_left_ = static_cast<float>(std::pow(squares / cumulative.back(), 2));
     for (std::size_t k = 0, i = 0; k <= cells; ++k) {
         const double target = cumulative.back() * static_cast<double>(k) / cells;
         while (i < steps && cumulative[i + 1] < target) ++i;

@@ -30,9 +30,6 @@ class PixelFilter {
     /// How many pixels on each side a sample can be worth something to.
     int reach_px() const { return reach_px_; }
 
-    /// The variance of a picture's pixel over that of a single sample's, times its samples.
-    float variance_left() const { return variance_left_; }
-
     /// For u in [0, 1)^2.
     FilterSample sample(const Vec2f& u) const;
 
@@ -46,7 +43,6 @@ class PixelFilter {
     PixelFilterShape shape_;
     double width_px_;
     int reach_px_;
-    float variance_left_ = 1.0f;
     std::vector<float> places_;  ///< where in the pixel the sum of all filters reaches k / cells
 };
 

@@ -29,8 +29,7 @@ std::vector<float> means_around(std::span<const float> values, const PixelGrid& 
 
 /// Of one sample of each pixel, relative to its radiance, as it and those beside it have it. Of what came once, and as
 /// a surprise to all of these, the mean over the pixels far around.
-std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelGrid& grid, float variance_left) {
-    constexpr float least_radiance = 0.1f;
+std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelGrid& grid) {
     constexpr float foreseen = 4.0f;  // times the variance of the other samples
     constexpr int far_px = 16;
     std::vector<float> own(grid.size()), others(grid.size()), radiance(grid.size()), surprise(grid.size());
@@ -43,7 +42,7 @@ std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelG
     others = means_around(others, grid, 1);
     std::vector<float> variances = means_around(own, grid, 1);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        const float scale = variance_left / sqr(std::max(radiance[i], least_radiance));
+        const float scale = 1.0f / sqr(std::max(radiance[i], least_radiance));
         surprise[i] = scale * std::max(own[i] - foreseen * others[i], 0.0f);
         variances[i] *= scale;
     }
@@ -54,21 +53,21 @@ std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelG
 
 /// How many samples a pixel of some variance gets: in proportion to its standard deviation.
 struct Allotment {
-    float wanted;  ///< error squared
-    float least, most;
-    float per_deviation;
+    float wanted, least, most;  ///< wanted: squared error
+    float per_deviation = 0.0f;
 
     float operator()(float variance) const {
-        const float enough = worst * variance / wanted;  // for a quarter of the error wanted
-        return std::clamp(std::min(std::sqrt(variance) * per_deviation, enough), least, most);
+        // For four times the error, and for a quarter of it.
+        const float needed = variance / (worst * wanted), enough = worst * variance / wanted;
+        return std::clamp(std::clamp(std::sqrt(variance) * per_deviation, needed, enough), least, most);
     }
     /// The mean of the pixels' squared errors. What even the most samples leave of a few is not made good for by
     /// others.
     float error_of(std::span<const float> variances) const {
-        double error = 0.0;
+        double sum = 0.0;
         for (const float variance : variances)
-            error += static_cast<double>(std::min(variance / (*this)(variance), worst * wanted));
-        return static_cast<float>(error / static_cast<double>(variances.size()));
+            sum += static_cast<double>(std::min(variance / (*this)(variance), worst * wanted));
+        return static_cast<float>(sum / static_cast<double>(variances.size()));
     }
 
    private:
@@ -77,7 +76,7 @@ struct Allotment {
 
 /// The least that makes the error.
 Allotment allot(std::span<const float> variances, float relative_error, float least, float most) {
-    Allotment allotment{sqr(relative_error), least, most, 0.0f};
+    Allotment allotment{sqr(relative_error), least, most};
     float low = 1e-3f, high = 1e6f;
     for (int step = 0; step < 40; ++step) {
         allotment.per_deviation = std::sqrt(low * high);
@@ -99,7 +98,7 @@ void Pilot::add(float radiance) {
 }
 
 float Pilot::variance_of(float sum, float sum_of_squares, std::uint32_t blocks) {
-    if (static_cast<int>(blocks) < 2) return 0.0f;
+    if (blocks < 2) return 0.0f;
     const auto n = static_cast<float>(blocks);
     return samples_per_block * std::max(sum_of_squares - sum * sum / n, 0.0f) / (n - 1.0f);
 }
@@ -109,14 +108,18 @@ std::uint32_t half_pilot_samples(std::uint32_t max_samples) {
     return std::min(std::clamp(max_samples / 128, least, most), (max_samples + 1) / 2);
 }
 
-SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float relative_error,
-                           float variance_left, std::uint32_t max_samples) {
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float half_error,
+                           float relative_error, std::uint32_t max_samples) {
     const auto least = static_cast<float>(2 * half_pilot_samples(max_samples));
     const float most = std::max(static_cast<float>(max_samples), least);
-    const std::array<std::vector<float>, 2> halves{relative_variances(pilot[0], grid, variance_left),
-                                                   relative_variances(pilot[1], grid, variance_left)};
+    std::array<std::vector<float>, 2> halves{relative_variances(pilot[0], grid), relative_variances(pilot[1], grid)};
     std::vector<float> variances;
     for (std::size_t i = 0; i < grid.size(); ++i) variances.push_back(0.5f * (halves[0][i] + halves[1][i]));
+    double told = 0.0;  // of a half's error by its samples
+    for (const float variance : variances) told += static_cast<double>(variance / (0.5f * least)) / grid.size();
+    const float scale = told > 0.0 ? std::clamp(half_error / static_cast<float>(told), 0.25f, 4.0f) : 1.0f;
+    for (std::vector<float>* all : {&halves[0], &halves[1], &variances})
+        for (float& variance : *all) variance *= scale;
 
     const Allotment samples_of = allot(variances, relative_error, least, most);
     SampleCounts counts;

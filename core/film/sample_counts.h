@@ -22,8 +22,10 @@ class Pilot {
     float mean() const { return blocks_ > 0 ? sum_ / static_cast<float>(blocks_) : 0.0f; }
     /// Of one sample as blocks of them have it; 0 of fewer than two blocks.
     float variance() const { return variance_of(sum_, sum_of_squares_, blocks_); }
-    /// The same without the brightest block.
-    float variance_without_most() const { return variance_of(sum_ - most_, sum_of_squares_ - sqr(most_), blocks_ - 1); }
+    /// The same without the brightest block, of three and more.
+    float variance_without_most() const {
+        return blocks_ < 3 ? variance() : variance_of(sum_ - most_, sum_of_squares_ - sqr(most_), blocks_ - 1);
+    }
 
    private:
     static constexpr std::uint32_t samples_per_block = 2;
@@ -42,11 +44,15 @@ struct SampleCounts {
     std::array<std::vector<float>, 2> half_weight;  ///< of each half of the pilot in the picture; what is left: theirs
 };
 
-/// So that the mean squared error over all pixels, each relative to its radiance, or to 0.1 where it is darker, is
-/// relative_error^2, with at most max_samples a pixel. variance_left: that of a picture's pixel, times its samples,
-/// over a sample's. A pixel has no fewer than a quarter of the samples of those beside it, which its own serve too; and
-/// what only one block of a pixel met, and none beside it, may be met anywhere near.
-SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float relative_error,
-                           float variance_left, std::uint32_t max_samples);
+/// Pixels' errors are relative to their radiance, or to this where they are darker.
+inline constexpr float least_radiance = 0.1f;
+
+/// So that the mean squared error over all pixels is relative_error^2, and none has four times that error, with at most
+/// max_samples a pixel. half_error: the mean squared error of a picture of half a pilot, which tells what the filter
+/// and even spreading leave of the samples' variance. A pixel has no fewer than a quarter of the samples of those
+/// beside it, which its own serve too; and what only one block of a pixel met, and none beside it, may be met anywhere
+/// near.
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float half_error,
+                           float relative_error, std::uint32_t max_samples);
 
 }  // namespace pivot

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/film/pixel_filter.h"
+#include "core/film/sample_counts.h"
 
 namespace pivot {
 
@@ -37,6 +38,9 @@ struct RenderSettings {
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
+
+    /// What every pixel has at least.
+    std::uint32_t even_samples() const { return adaptive ? 2 * half_pilot_samples(samples) : samples; }
 };
 
 }  // namespace pivot

@@ -31,7 +31,7 @@ CDFS = {"BLACKMAN_HARRIS": blackman_harris_cdf, "BOX": box_cdf}
 def test_what_a_pixel_is_given_follows_its_window(shape: str, width_px: float) -> None:
     """The weights that one pixel gets from its own samples and those around, over bins of where these lie from it."""
     u = random_squares(40_000)
-    offsets, weights, _ = filter_samples(shape, width_px, u)
+    offsets, weights = filter_samples(shape, width_px, u)
     reach = weights.shape[-1] // 2
     edges = np.linspace(0, 1, 33)
     expected = np.diff(CDFS[shape](edges))
@@ -53,25 +53,23 @@ def test_what_a_pixel_is_given_follows_its_window(shape: str, width_px: float) -
 @pytest.mark.parametrize("width_px", WIDTHS_PX)
 @pytest.mark.parametrize("shape", CDFS)
 def test_a_sample_is_worth_one_in_all_and_lies_in_its_pixel(shape: str, width_px: float) -> None:
-    offsets, weights, _ = filter_samples(shape, width_px, random_squares(1000))
+    offsets, weights = filter_samples(shape, width_px, random_squares(1000))
     np.testing.assert_allclose(weights.sum(-1), 1.0, rtol=1e-6)
     assert (weights >= 0).all()
     assert np.abs(offsets).max() <= 0.5 * min(width_px, 1.0)
     assert weights.shape[-1] == 1 + 2 * max(int(np.ceil(width_px / 2 - 0.5)), 0)
 
 
-@pytest.mark.parametrize("width_px", WIDTHS_PX)
-def test_the_variance_left_is_that_of_the_weights(width_px: float) -> None:
-    """Blender's default filter is three pixels wide, and leaves less than half."""
-    _, weights, left = filter_samples("BLACKMAN_HARRIS", width_px, random_squares(40_000))
-    np.testing.assert_allclose((weights**2).sum(-1).mean(0), left**0.5, rtol=5e-3)
-    assert left < 0.46 or width_px < 3.0
+def test_blenders_default_filter_leaves_less_than_half_of_the_variance() -> None:
+    """Of samples of even noise: each pixel's estimate has the sum of the squared weights that it gives to all."""
+    _, weights = filter_samples("BLACKMAN_HARRIS", 3.0, random_squares(40_000))
+    assert (weights**2).sum(-1).prod(-1).mean() < 0.46
 
 
 def test_each_axis_has_its_own_number() -> None:
     last = np.nextafter(np.float32(1), np.float32(0))
     u = np.array([[0, last], [last, 0], [0.5, 0.5], [0.25, 0.75]], np.float32)
-    offsets, _, _ = filter_samples("BLACKMAN_HARRIS", 3.0, u)
+    offsets, _ = filter_samples("BLACKMAN_HARRIS", 3.0, u)
     np.testing.assert_allclose(offsets[:2], [[-0.5, 0.5], [0.5, -0.5]], atol=1e-4)
     np.testing.assert_allclose(offsets[2], 0, atol=1e-6)
     np.testing.assert_allclose(offsets[3, 0], -offsets[3, 1], rtol=1e-4)
@@ -79,13 +77,12 @@ def test_each_axis_has_its_own_number() -> None:
 
 def test_a_box_of_one_pixel_is_even_and_its_own() -> None:
     u = random_squares(1000)
-    offsets, weights, left = filter_samples("BOX", 1.0, u)
+    offsets, weights = filter_samples("BOX", 1.0, u)
     np.testing.assert_allclose(offsets, u - 0.5, atol=1e-6)
     np.testing.assert_array_equal(weights, 1)
-    assert left == 1
 
 
 def test_no_width_is_the_centre() -> None:
-    offsets, weights, _ = filter_samples("BLACKMAN_HARRIS", 0.0, random_squares(100))
+    offsets, weights = filter_samples("BLACKMAN_HARRIS", 0.0, random_squares(100))
     np.testing.assert_array_equal(offsets, 0)
     np.testing.assert_array_equal(weights, 1)
