@@ -31,7 +31,7 @@ BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
         throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
                               ", or as many as there are lights if they are fewer");
     }
-    return {0, Dimensions(0), light_samples, 0};
+    return {light_samples == 1 ? 1u : 0u, Dimensions(0), light_samples, 0};
 }
 
 py::tuple sample_lights(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,
@@ -51,7 +51,8 @@ py::tuple sample_lights(Scene& scene, const OwnedMaterial& material, const Tripl
         SharedLamps shared;
         ProgramMemory memory;
         const VertexBatch batch(vertices, std::min(batch_size, count - first));
-        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, shared, memory)) {
+        const VertexLights lights(scene, plan, batch);
+        for (const LightSample& sample : light_samples_of(scene, strategy, plan, batch, lights, shared, memory)) {
             wi.push_back(sample.wi);
             radiance.push_back(sample.radiance);
         }
@@ -72,6 +73,7 @@ py::tuple light_densities(Scene& scene, const OwnedMaterial& material, const Tri
     const SceneHold hold(scene);
     const Vertex vertex = vertex_at(scene, material, position, wo);
     const BouncePlan plan = plan_with(scene, light_samples);
+    const VertexLights vertex_lights(scene, plan, VertexBatch(broadcast<VertexOf>(vertex), batch_size));
     const LightSampling strategy = light_sampling_from(light_sampling);
     const py::ssize_t count = wi.shape(0);
     const auto lights = static_cast<py::ssize_t>(scene.lamps().size() + scene.triangle_lights().size());
@@ -82,7 +84,7 @@ py::tuple light_densities(Scene& scene, const OwnedMaterial& material, const Tri
     for (py::ssize_t light = 0; light < lights; ++light) {
         const Light& source = scene.light(static_cast<std::size_t>(light));
         const LightSampler sampler(source, vertex.point, vertex.surface, strategy);
-        const float expected = expected_samples(scene, plan, vertex, static_cast<std::size_t>(light));
+        const float expected = vertex_lights.expected_samples(0, static_cast<std::size_t>(light));
         shares.mutable_at(light) = sampler.shares_with_bsdf();
         for (py::ssize_t i = 0; i < count; ++i) {
             const Vec3f direction(wi.at(i, 0), wi.at(i, 1), wi.at(i, 2));
@@ -98,12 +100,19 @@ py::tuple light_densities(Scene& scene, const OwnedMaterial& material, const Tri
     return py::make_tuple(pdf_omega, reflected, pdf_omega_bsdf, shares);
 }
 
+/// Of the lamps, as a batch of this vertex in all its lanes chooses.
+LightChoice choice_at(const Scene& scene, const Vertex& vertex, std::size_t cut_nodes) {
+    if (scene.lamps().empty()) throw py::value_error("the scene has no lamp to choose");
+    if (cut_nodes < 1 || cut_nodes > LightChoice::max_cut_nodes)
+        throw py::value_error("cut_nodes must be 1 to " + std::to_string(LightChoice::max_cut_nodes));
+    return LightChoice(scene.lamp_tree(), light_receiver(broadcast<VertexOf>(vertex)), batch_size, cut_nodes);
+}
+
 py::tuple choose_lights_at(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,
-                           const FloatArray& u) {
+                           const FloatArray& u, std::size_t cut_nodes) {
     require_shape(u, "u", {-1});
     const SceneHold hold(scene);
-    const VertexBatch vertices(broadcast<VertexOf>(vertex_at(scene, material, position, wo)), batch_size);
-    if (scene.lamps().empty()) throw py::value_error("the scene has no lamp to choose");
+    const LightChoice choice = choice_at(scene, vertex_at(scene, material, position, wo), cut_nodes);
     py::array_t<std::int64_t> light(u.shape(0));
     py::array_t<float> probability(u.shape(0));
     for (py::ssize_t first = 0; first < u.shape(0); first += batch_size) {
@@ -111,7 +120,7 @@ py::tuple choose_lights_at(Scene& scene, const OwnedMaterial& material, const Tr
         Lanes lanes{};
         std::copy_n(u.data(first), count, lanes.begin());
         LightChoices choices;
-        choose_lights(scene.lamp_tree(), vertices, load(lanes), std::span(&choices, 1));
+        choice.choose(load(lanes), std::span(&choices, 1));
         for (py::ssize_t i = 0; i < count; ++i) {
             const float p = probability.mutable_at(first + i) = choices.probability[static_cast<std::size_t>(i)];
             light.mutable_at(first + i) =
@@ -122,32 +131,39 @@ py::tuple choose_lights_at(Scene& scene, const OwnedMaterial& material, const Tr
 }
 
 py::array_t<float> choice_probabilities(Scene& scene, const OwnedMaterial& material, const Triple& position,
-                                        const Triple& wo) {
+                                        const Triple& wo, std::size_t cut_nodes) {
     const SceneHold hold(scene);
-    const Vertex vertex = vertex_at(scene, material, position, wo);
+    const LightChoice choice = choice_at(scene, vertex_at(scene, material, position, wo), cut_nodes);
     py::array_t<float> probabilities(static_cast<py::ssize_t>(scene.lamps().size()));
     for (std::size_t light = 0; light < scene.lamps().size(); ++light) {
-        probabilities.mutable_data()[light] = choice_probability(scene.lamp_tree(), vertex, light);
+        probabilities.mutable_data()[light] = choice.probability(0, light);
     }
     return probabilities;
 }
 
-/// Each node as (child (n,), center (n, 3), radius_m (n,), radiance (n,), sun_versine (n,)).
+/// Each node as (child (n,), mean (n, 3), variance_m2 (n,), ...): see below.
 py::list light_tree(Scene& scene) {
     const SceneHold hold(scene);
     scene.commit();
     py::list nodes;
     for (const LightTree::Node& node : scene.lamp_tree().nodes()) {
         const auto count = static_cast<py::ssize_t>(node.count);
-        const LightProxies& proxies = node.proxies;
-        const auto values = [&](const LightProxies::Values& v) { return py::array_t<float>(count, v.data()); };
-        py::array_t<float> center({count, py::ssize_t(3)});
-        for (std::size_t i = 0; i < node.count; ++i) {
-            float* row = center.mutable_data(static_cast<py::ssize_t>(i));
-            row[0] = proxies.center_x[i], row[1] = proxies.center_y[i], row[2] = proxies.center_z[i];
-        }
-        nodes.append(py::make_tuple(py::array_t<std::int32_t>(count, node.child.data()), center,
-                                    values(proxies.radius_m), values(proxies.radiance), values(proxies.sun_versine)));
+        const auto numbers = [&](auto member) {
+            py::array_t<float> values(count);
+            for (std::size_t i = 0; i < node.count; ++i) values.mutable_data()[i] = node.proxies[i].*member;
+            return values;
+        };
+        const auto vectors = [&](auto member) {
+            py::array_t<float> values({count, py::ssize_t(3)});
+            for (std::size_t i = 0; i < node.count; ++i)
+                for (int axis = 0; axis < 3; ++axis)
+                    values.mutable_at(static_cast<py::ssize_t>(i), axis) = (node.proxies[i].*member)[axis];
+            return values;
+        };
+        using Proxy = LightProxyOf<float>;
+        nodes.append(py::make_tuple(py::array_t<std::int32_t>(count, node.child.data()), vectors(&Proxy::mean),
+                                    numbers(&Proxy::variance_m2), numbers(&Proxy::bound_m), numbers(&Proxy::intensity),
+                                    vectors(&Proxy::axis), numbers(&Proxy::sharpness)));
     }
     return nodes;
 }
@@ -168,15 +184,17 @@ void register_light_samples(py::module_& module) {
               "the density of BSDF samples (n,); which lights share with these by the balance heuristic (lights,).");
     scene.def(
         "choose_lights", &choose_lights_at, py::arg("material"), py::arg("position"), py::arg("wo"), py::arg("u"),
+        py::arg("cut_nodes") = 1,
         "The light that each u (n,) in [0, 1) chooses down the light tree, (n,), -1 where none reaches the point, "
         "and with which probability, (n,).");
     scene.def("choice_probabilities", &choice_probabilities, py::arg("material"), py::arg("position"), py::arg("wo"),
-              "With which probability choose_lights takes each lamp, (lamps,).");
+              py::arg("cut_nodes") = 1, "With which probability choose_lights takes each lamp, (lamps,).");
     scene.def(
         "light_tree", &light_tree,
-        "Its nodes, the root first, each as (child (n,): a node, or ~light; center (n, 3); radius_m (n,); radiance "
-        "(n,), the mean over colours; sun_versine (n,)): the spheres, or where sun_versine is above 0 the caps, "
-        "that stand for the children.");
+        "Its nodes, the root first, each as (child (n,): a node, or ~light; mean (n, 3), the place, of suns the "
+        "direction; variance_m2 (n,) of places about it, across any line of sight; bound_m (n,), how far parts are "
+        "from it at most; intensity (n,) in W/sr towards any side at most, the mean over colours; axis (n, 3), where "
+        "it shines most, or 0; sharpness (n,) of that Gaussian).");
 }
 
 }  // namespace pivot::bindings

@@ -503,6 +503,7 @@ class Scene:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
         wo: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        cut_nodes: typing.SupportsInt | typing.SupportsIndex = 1,
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
         With which probability choose_lights takes each lamp, (lamps,).
@@ -515,6 +516,7 @@ class Scene:
         ],
         wo: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
         u: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        cut_nodes: typing.SupportsInt | typing.SupportsIndex = 1,
     ) -> tuple:
         """
         The light that each u (n,) in [0, 1) chooses down the light tree, (n,), -1 where none reaches the point, and with which probability, (n,).
@@ -544,7 +546,7 @@ class Scene:
         """
     def light_tree(self) -> list:
         """
-        Its nodes, the root first, each as (child (n,): a node, or ~light; center (n, 3); radius_m (n,); radiance (n,), the mean over colours; sun_versine (n,)): the spheres, or where sun_versine is above 0 the caps, that stand for the children.
+        Its nodes, the root first, each as (child (n,): a node, or ~light; mean (n, 3), the place, of suns the direction; variance_m2 (n,) of places about it, across any line of sight; bound_m (n,), how far parts are from it at most; intensity (n,) in W/sr towards any side at most, the mean over colours; axis (n, 3), where it shines most, or 0; sharpness (n,) of that Gaussian).
         """
     def occluded(
         self,

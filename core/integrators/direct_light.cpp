@@ -2,18 +2,11 @@
 
 #include <algorithm>
 
-#include "core/integrators/light_choice.h"
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/media_ray.h"
 
 namespace pivot {
 namespace {
-
-/// A light for each vertex of a batch, and how often such a choice takes it.
-struct LightPicks {
-    std::array<std::size_t, batch_size> light;
-    Lanes expected_samples{};  ///< 0: no sample
-};
 
 /// How far a light sample's shadow ray goes.
 float reach_m(const Light& light, const SurfacePoint& point, const LightPoint& place) {
@@ -106,29 +99,6 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     return pack<LightSampleOf>(lanes);
 }
 
-/// Some of the `count` lights from `first` on, which a tree holds: all, or as many as there are picks, u()
-/// choosing among them.
-template <class U>
-void pick_some(const LightTree& tree, std::size_t first, std::size_t count, const VertexBatch& vertices, const U& u,
-               std::span<LightPicks> picks) {
-    if (picks.empty()) return;
-    if (picks.size() == count) {
-        for (std::size_t k = 0; k < count; ++k) {
-            picks[k].light.fill(first + k);
-            picks[k].expected_samples.fill(1.0f);
-        }
-        return;
-    }
-    std::array<LightChoices, max_light_samples> choices;
-    choose_lights(tree, vertices, u(), std::span(choices).first(picks.size()));
-    for (std::size_t k = 0; k < picks.size(); ++k) {
-        for (std::size_t i = 0; i < vertices.count(); ++i) {
-            picks[k].light[i] = first + choices[k].light[i];
-            picks[k].expected_samples[i] = static_cast<float>(picks.size()) * choices[k].probability[i];
-        }
-    }
-}
-
 /// The ray that a light sample of a triangle stands for, where that is met, a bounce on.
 Arrival arrival_at(const Scene& scene, const SceneTriangle& triangle, const AreaLight& light, const Vec3f& origin,
                    const Vec3f& wi) {
@@ -199,7 +169,7 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
 /// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                     SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
+                     const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
     const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples) {
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
         visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
@@ -209,17 +179,8 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
     };
     if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
         visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers));
-    const std::size_t rounds = plan.lamp_samples + plan.triangle_samples;
-    if (rounds == 0) return;
-    std::array<LightPicks, max_light_samples> picks;
-    const auto u = [&] { return vertices.sampler.point(plan.dimensions.light_choice()); };
-    pick_some(
-        scene.lamp_tree(), 0, scene.lamps().size(), vertices, [&] { return u().x; },
-        std::span(picks).first(plan.lamp_samples));
-    pick_some(
-        scene.triangle_tree(), scene.lamps().size(), scene.triangle_lights().size(), vertices, [&] { return u().y; },
-        std::span(picks).subspan(plan.lamp_samples, plan.triangle_samples));
-    for (std::size_t k = 0; k < rounds; ++k) {
+    const std::span<const LightPicks> picks = lights.picks();
+    for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         LightSampleOf<Batch> samples =
             sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps);
@@ -230,27 +191,10 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
 
 }  // namespace
 
-BouncePlan plan_bounce(const Scene& scene, std::uint32_t bounce) {
-    return {.bounce = bounce,
-            .dimensions = Dimensions(bounce),
-            .lamp_samples = std::min(scene.lamps().size(), bounce == 0 ? max_lamp_samples : 1),
-            .triangle_samples = std::min(scene.triangle_lights().size(), bounce == 0 ? max_triangle_samples : 1)};
-}
-
-float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex& vertex, std::size_t light) {
-    const std::size_t lamps = scene.lamps().size();
-    const auto chosen_of = [&](const LightTree& tree, std::size_t count, std::size_t samples, std::size_t index) {
-        if (samples == count) return 1.0f;
-        return static_cast<float>(samples) * choice_probability(tree, vertex, index);
-    };
-    if (light < lamps) return chosen_of(scene.lamp_tree(), lamps, plan.lamp_samples, light);
-    return chosen_of(scene.triangle_tree(), scene.triangle_lights().size(), plan.triangle_samples, light - lamps);
-}
-
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared_lamps, ProgramMemory& memory) {
+                   const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory) {
     Vec3b radiance(Batch(0.0f));
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps, memory,
+    for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Batch visible = scene.visibility(rays), zero(0.0f);
                         // Where no ray is, there is nothing to add.
@@ -267,10 +211,10 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
 }
 
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, SharedLamps& shared_lamps,
-                                          ProgramMemory& memory) {
+                                          const VertexBatch& vertices, const VertexLights& lights,
+                                          SharedLamps& shared_lamps, ProgramMemory& memory) {
     std::vector<LightSample> result;
-    for_each_sample(scene, strategy, plan, vertices, shared_lamps, memory,
+    for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);

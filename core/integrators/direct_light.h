@@ -2,15 +2,12 @@
 #pragma once
 
 #include "core/integrators/arrival.h"
+#include "core/integrators/light_choice.h"
 #include "core/integrators/light_lanes.h"
 #include "core/integrators/settings.h"
+#include "core/integrators/vertex_lights.h"
 
 namespace pivot {
-
-BouncePlan plan_bounce(const Scene& scene, std::uint32_t bounce);
-
-/// How many samples of this light a vertex takes, on average.
-float expected_samples(const Scene& scene, const BouncePlan& plan, const Vertex& vertex, std::size_t light);
 
 /// MIS by the balance heuristic.
 template <class T>
@@ -38,10 +35,11 @@ class SharedLamps {
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   SharedLamps& shared, ProgramMemory& memory);
+                   const VertexLights& lights, SharedLamps& shared, ProgramMemory& memory);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
-                                          const VertexBatch& vertices, SharedLamps& shared, ProgramMemory& memory);
+                                          const VertexBatch& vertices, const VertexLights& lights, SharedLamps& shared,
+                                          ProgramMemory& memory);
 
 }  // namespace pivot

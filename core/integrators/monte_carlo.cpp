@@ -51,16 +51,16 @@ Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, con
     return radiance;
 }
 
-/// The weight of the emission that a BSDF sample meets on a surface: less than 1 if its triangle is sampled too.
-float emission_weight(const Work& work, const BouncePlan& plan, const Vertex& vertex, const Vec3f& wi,
-                      float bsdf_pdf_omega, const RayHit& hit) {
+/// The weight of the emission that a lane's BSDF sample meets on a surface: less than 1 if its triangle is sampled too.
+float emission_weight(const Work& work, const VertexBatch& vertices, const VertexLights& lights, std::size_t lane,
+                      const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
     const auto index = work.scene.light_of(hit);
     if (!index) return 1.0f;
     const Light& light = work.scene.light(*index);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return 1.0f;
-    return bsdf_weight(light, work.settings.light_sampling, vertex, *place,
-                       expected_samples(work.scene, plan, vertex, *index), bsdf_pdf_omega);
+    return bsdf_weight(light, work.settings.light_sampling, vertices.lane(lane), *place,
+                       lights.expected_samples(lane, *index), bsdf_pdf_omega);
 }
 
 /// The world's light that BSDF samples meet, weighted where it is sampled too.
@@ -160,8 +160,8 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 }
 
 /// Follows a bounce's rays to what they meet: lights, the world, or the paths' next vertices.
-void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bounce, const PathBatch& batch,
-            const Scattered& scattered, const SharedLamps& shared, Paths& next) {
+void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& batch, const Scattered& scattered,
+            const VertexLights& lights, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
     const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
     const WordBatch ray_kind = select(scattered.is_glossy, WordBatch(glossy_ray), WordBatch(diffuse_ray));
@@ -221,7 +221,7 @@ void follow(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bo
             shines_by_program = shader.has_varying_emission();
             if (shader.is_emissive()) {
                 path.emission_weight =
-                    emission_weight(work, plan, batch.vertices.lane(i), arrival.direction, pdf_omega[i], arrival.hit);
+                    emission_weight(work, batch.vertices, lights, i, arrival.direction, pdf_omega[i], arrival.hit);
                 if (!shines_by_program) light += path.emission_weight * shader.constants.emission;
             }
         }
@@ -253,10 +253,11 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
         add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
     if (bounce > work.settings.max_bounces) return count;
+    const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
     add_light(work, bounce, batch,
-              batch.lanes.throughput *
-                  direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, shared, work.memory));
+              batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
+                                                    lights, shared, work.memory));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
     if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
@@ -264,7 +265,7 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
             is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
     if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
-    if (any(scattered.goes_on)) follow(work, fog, plan, bounce, batch, scattered, shared, next);
+    if (any(scattered.goes_on)) follow(work, fog, bounce, batch, scattered, lights, shared, next);
     return count;
 }
 

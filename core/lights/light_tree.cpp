@@ -6,138 +6,282 @@
 namespace pivot {
 namespace {
 
-/// Where a light stands that is no sun.
-Vec3f center_of(const Light& light) {
-    const SphereLight* sphere = sphere_of(light);
-    return sphere ? sphere->center : std::get<AreaLight>(light).center;
-}
+/// A light as its groups sum it up.
+struct LightMoments {
+    Vec3f mean;        ///< place, or direction of a sun
+    float scatter_m2;  ///< mean squared distance of its parts from the mean
+    float bound_m;     ///< no part is further from the mean
+    float intensity;   ///< W/sr, the mean over all directions
+    Vec3f direction;   ///< mean of the directions that it shines in, at most 1 long
+};
 
-float radius_of(const Light& light) {
-    if (const SphereLight* sphere = sphere_of(light)) return sphere->radius_m;
-    const auto& area = std::get<AreaLight>(light);
-    return length(area.half_u) + length(area.half_v);
-}
-
-/// Radiance times the area that faces a point: what it gives far away.
-float intensity_of(const Light& light) {
-    const SphereLight* sphere = sphere_of(light);
-    if (sphere) return mean_component(abs(sphere->radiance)) * pi<float> * sqr(sphere->radius_m);
-    const auto& area = std::get<AreaLight>(light);
-    return mean_component(abs(area.radiance)) * area.area_m2;
-}
-
-void set_light(LightProxies& proxies, std::size_t child, const Light& light) {
+LightMoments moments_of(const Light& light) {
     if (const auto* sun = std::get_if<SunLight>(&light)) {
-        proxies.set_sphere(child, sun->cap.axis, 0.0f, mean_component(abs(sun->radiance)));
-        proxies.sun_versine[child] = sun->cap.versine;
-    } else if (const auto* area = std::get_if<AreaLight>(&light)) {
-        proxies.set_flat(child, *area);
-    } else {
-        const SphereLight& sphere = *sphere_of(light);
-        proxies.set_sphere(child, sphere.center, sphere.radius_m, mean_component(abs(sphere.radiance)));
-        if (const auto* spot = std::get_if<SpotLight>(&light)) {
-            proxies.normal_x[child] = spot->direction.x;
-            proxies.normal_y[child] = spot->direction.y;
-            proxies.normal_z[child] = spot->direction.z;
-            proxies.cos_cone[child] = spot->cos_half_angle;
-            proxies.least_lit[child] = 0.01f;  // a sphere of some size is lit in part where its centre is dark
-        }
+        const float sin2 = sin2_half_angle(sun->cap);
+        return {sun->cap.axis, 0.5f * sin2, std::sqrt(2.0f * sun->cap.versine),
+                mean_component(abs(sun->radiance)) * pi<float> * sin2, Vec3f(0.0f)};
     }
+    if (const SphereLight* sphere = sphere_of(light)) {
+        const float radius2 = sqr(sphere->radius_m);
+        const float intensity = mean_component(abs(sphere->radiance)) * pi<float> * radius2;
+        const LightMoments all_around{sphere->center, 0.5f * radius2, sphere->radius_m, intensity, Vec3f(0.0f)};
+        const auto* spot = std::get_if<SpotLight>(&light);
+        if (!spot) return all_around;
+        // As if it shone evenly up to where it has fallen off by half.
+        const float cosine = spot->cos_half_angle + 0.5f * spot_falloff_width(*spot);
+        LightMoments in_cone = all_around;
+        in_cone.intensity *= 0.5f * (1.0f - cosine);
+        in_cone.direction = spot->direction * (0.5f * (1.0f + cosine));
+        return in_cone;
+    }
+    const auto& area = std::get<AreaLight>(light);
+    const float u2 = length_squared(area.half_u), v2 = length_squared(area.half_v);
+    const float flux = mean_component(abs(area.radiance)) * area.area_m2;
+    const float bound_m = std::sqrt(u2) + std::sqrt(v2);
+    switch (area.shape) {
+        case AreaShape::parallelogram:
+            return {area.center, (u2 + v2) / 3.0f, bound_m, 0.25f * flux, area.normal * (2.0f / 3.0f)};
+        case AreaShape::ellipse:
+            return {area.center, (u2 + v2) / 4.0f, bound_m, 0.25f * flux, area.normal * (2.0f / 3.0f)};
+        case AreaShape::triangle:  // shines from both sides
+            return {area.center + area.half_u / 3.0f, u2 * (2.0f / 9.0f) + v2 / 6.0f,
+                    4.0f / 3.0f * std::sqrt(u2) + std::sqrt(v2), 0.5f * flux, Vec3f(0.0f)};
+    }
+    return {};
 }
 
-/// Suns, or lights that are none.
-void set_group(LightProxies& proxies, std::size_t child, std::span<const Light> lights,
-               std::span<const std::uint32_t> indices) {
-    Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
-    float intensity = 0.0f, irradiance = 0.0f;
+LightProxyOf<float> proxy_of(const Light& light) {
+    const LightMoments moments = moments_of(light);
+    LightProxyOf<float> proxy{.mean = moments.mean,
+                              .is_placed = 1.0f,
+                              .variance_m2 = 0.5f * moments.scatter_m2,
+                              .bound_m = moments.bound_m,
+                              .intensity = moments.intensity,
+                              .axis = Vec3f(0.0f),
+                              .sharpness = 0.0f,
+                              .radius_m = 0.0f,
+                              .cos_edge = -2.0f,  // falls off nowhere
+                              .inverse_falloff_width = 1.0f,
+                              .is_smooth = 0.0f,
+                              .is_two_sided = 0.0f};
+    if (const auto* sun = std::get_if<SunLight>(&light)) {
+        proxy.is_placed = 0.0f;
+        proxy.radius_m = std::sqrt(sin2_half_angle(sun->cap));
+        return proxy;
+    }
+    if (const auto* area = std::get_if<AreaLight>(&light)) {
+        proxy.intensity = mean_component(abs(area->radiance)) * area->area_m2;
+        proxy.radius_m = std::sqrt(area->area_m2 / pi<float>);
+        proxy.axis = area->normal;
+        proxy.cos_edge = 0.0f;
+        proxy.is_two_sided = area->is_two_sided() ? 1.0f : 0.0f;
+        return proxy;
+    }
+    const SphereLight& sphere = *sphere_of(light);
+    proxy.intensity = mean_component(abs(sphere.radiance)) * pi<float> * sqr(sphere.radius_m);
+    proxy.radius_m = sphere.radius_m;
+    if (const auto* spot = std::get_if<SpotLight>(&light)) {
+        proxy.axis = spot->direction;
+        proxy.cos_edge = spot->cos_half_angle;
+        proxy.inverse_falloff_width = 1.0f / spot_falloff_width(*spot);
+        proxy.is_smooth = 1.0f;
+    }
+    return proxy;
+}
+
+/// Of the von Mises-Fisher distribution whose mean is so long. [Banerjee05, as in Tokuyoshi24]
+float sharpness_of(float mean_length) {
+    const float r = std::min(mean_length, 1.0f - 1e-6f);
+    return r * (3.0f - r * r) / (1.0f - r * r);
+}
+
+/// Lights together: suns, or lights that are none.
+LightProxyOf<float> proxy_of(std::span<const LightMoments> moments, std::span<const std::uint32_t> indices,
+                             bool are_suns) {
+    Vec3<double> mean(0.0), direction(0.0);
+    double intensity = 0.0;
     for (const std::uint32_t i : indices) {
-        if (const auto* sun = std::get_if<SunLight>(&lights[i])) {
-            irradiance += mean_component(abs(sun->radiance)) * sin2_half_angle(sun->cap);
-            continue;
-        }
-        low = min(low, center_of(lights[i]) - radius_of(lights[i]));
-        high = max(high, center_of(lights[i]) + radius_of(lights[i]));
-        intensity += intensity_of(lights[i]);
+        const double weight = std::max(moments[i].intensity, tiny<float>);
+        mean += weight * Vec3<double>(moments[i].mean);
+        direction += weight * Vec3<double>(moments[i].direction);
+        intensity += weight;
     }
-    if (irradiance > 0.0f) {  // from anywhere above
-        proxies.set_sphere(child, Vec3f(0.0f, 0.0f, 1.0f), 0.0f, irradiance);
-        proxies.sun_versine[child] = 2.0f;
-        return;
+    mean /= intensity;
+    direction /= intensity;
+    double scatter_m2 = 0.0;
+    float bound_m = 0.0f;
+    for (const std::uint32_t i : indices) {
+        const auto apart2 = static_cast<float>(length_squared(Vec3<double>(moments[i].mean) - mean));
+        scatter_m2 += double(std::max(moments[i].intensity, tiny<float>)) * double(apart2 + moments[i].scatter_m2);
+        bound_m = std::max(bound_m, std::sqrt(apart2) + moments[i].bound_m);
     }
-    const float radius = std::max(0.5f * length(high - low), 1e-6f);
-    proxies.set_sphere(child, 0.5f * (low + high), radius, intensity / (pi<float> * sqr(radius)));
+    const Vec3f axis(direction);
+    const float mean_length = length(axis), sharpness = sharpness_of(mean_length);
+    // The Gaussian's peak over its mean.
+    const float peak = sharpness > 1e-3f ? 2.0f * sharpness / -std::expm1(-2.0f * sharpness) : 1.0f;
+    return {.mean = Vec3f(mean),
+            .is_placed = are_suns ? 0.0f : 1.0f,
+            .variance_m2 = 0.5f * static_cast<float>(scatter_m2 / intensity),
+            .bound_m = bound_m,
+            .intensity = peak * static_cast<float>(intensity),
+            .axis = mean_length > 1e-3f ? axis / mean_length : Vec3f(0.0f),
+            .sharpness = mean_length > 1e-3f ? sharpness : 0.0f,
+            .radius_m = 0.0f,
+            .cos_edge = -2.0f,
+            .inverse_falloff_width = 1.0f,
+            .is_smooth = 0.0f,
+            .is_two_sided = 0.0f};
 }
 
 }  // namespace
 
-void LightProxies::set_sphere(std::size_t child, const Vec3f& center, float radius, float mean_radiance) {
-    center_x[child] = center.x, center_y[child] = center.y, center_z[child] = center.z;
-    radius_m[child] = radius;
-    radiance[child] = mean_radiance;
-    least_lit[child] = 1.0f;
+LightProxyOf<float> LightProxies::operator[](std::size_t child) const {
+    std::array<float, numbers> of_child;
+    for (std::size_t i = 0; i < numbers; ++i) of_child[i] = values_[i][child];
+    return std::bit_cast<LightProxyOf<float>>(of_child);
 }
 
-void LightProxies::set_flat(std::size_t child, const AreaLight& light) {
-    set_sphere(child, light.center, sqrt(light.area_m2 / pi<float>), mean_component(abs(light.radiance)));
-    normal_x[child] = light.normal.x, normal_y[child] = light.normal.y, normal_z[child] = light.normal.z;
-    least_lit[child] = 0.0f;
-    two_sided[child] = light.is_two_sided() ? 1.0f : 0.0f;
+void LightProxies::set(std::size_t child, const LightProxyOf<float>& proxy) {
+    const auto of_child = std::bit_cast<std::array<float, numbers>>(proxy);
+    for (std::size_t i = 0; i < numbers; ++i) values_[i][child] = of_child[i];
 }
+
+/// How far light scatters about its mean place, summed up.
+struct Scatter {
+    double weight = 0.0, square = 0.0;
+    Vec3<double> place{0.0};
+
+    void add(const LightMoments& light) {
+        const double w = std::max(light.intensity, tiny<float>);
+        const Vec3<double> mean(light.mean);
+        weight += w;
+        place += w * mean;
+        square += w * (length_squared(mean) + static_cast<double>(light.scatter_m2));
+    }
+    void add(const Scatter& other) {
+        weight += other.weight;
+        place += other.place;
+        square += other.square;
+    }
+    float total() const {
+        return weight > 0.0 ? static_cast<float>(std::max(square - length_squared(place) / weight, 0.0)) : 0.0f;
+    }
+};
+
+struct Part {
+    std::span<std::uint32_t> lights;
+    float scatter;
+};
+
+/// Builds a tree from the root on.
+class LightTree::Builder {
+   public:
+    Builder(LightTree& tree, std::span<const Light> lights) : tree_(tree), lights_(lights) {
+        moments_.reserve(lights.size());
+        for (const Light& light : lights) moments_.push_back(moments_of(light));
+    }
+
+    std::int32_t build(std::span<std::uint32_t> indices) {
+        const auto index = static_cast<std::int32_t>(tree_.nodes_.size());
+        tree_.nodes_.emplace_back();
+        const std::vector<std::span<std::uint32_t>> parts = split(indices);
+        Node node;
+        node.count = parts.size();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (parts[i].size() == 1) {
+                node.proxies.set(i, proxy_of(lights_[parts[i][0]]));
+                node.child[i] = ~static_cast<std::int32_t>(parts[i][0]);
+                tree_.leaves_[parts[i][0]] = {index, i};
+            } else {
+                node.proxies.set(i, proxy_of(moments_, parts[i], is_sun(parts[i][0])));
+                node.child[i] = build(parts[i]);
+                tree_.nodes_[static_cast<std::size_t>(node.child[i])].parent = index;
+                tree_.nodes_[static_cast<std::size_t>(node.child[i])].place_in_parent = i;
+            }
+        }
+        node.parent = tree_.nodes_[static_cast<std::size_t>(index)].parent;
+        tree_.nodes_[static_cast<std::size_t>(index)] = node;
+        return index;
+    }
+
+   private:
+    bool is_sun(std::uint32_t i) const { return std::holds_alternative<SunLight>(lights_[i]); }
+
+    /// Suns apart from the rest; then the part that says least of where its light comes from is cut in two, until
+    /// there are as many as a node has children, or single lights.
+    std::vector<std::span<std::uint32_t>> split(std::span<std::uint32_t> indices) const {
+        const auto suns = std::partition(indices.begin(), indices.end(), [&](std::uint32_t i) { return is_sun(i); });
+        const auto sun_count = static_cast<std::size_t>(suns - indices.begin());
+        std::vector<Part> parts;
+        for (const auto& lights : {indices.first(sun_count), indices.subspan(sun_count)}) {
+            if (!lights.empty()) parts.push_back({lights, scatter_of(lights)});
+        }
+        while (parts.size() < light_tree_width) {
+            const auto widest = std::max_element(parts.begin(), parts.end(), [](const Part& x, const Part& y) {
+                return std::pair(x.lights.size() > 1, x.scatter) < std::pair(y.lights.size() > 1, y.scatter);
+            });
+            const std::span<std::uint32_t> whole = widest->lights;
+            if (whole.size() < 2) break;
+            const std::size_t count = cut(whole);
+            *widest = {whole.first(count), scatter_of(whole.first(count))};
+            parts.insert(widest + 1, {whole.subspan(count), scatter_of(whole.subspan(count))});
+        }
+        std::vector<std::span<std::uint32_t>> result;
+        for (const Part& part : parts) result.push_back(part.lights);
+        return result;
+    }
+
+    /// Sorts lights into two parts, along the longest side, where light scatters least within both; how many are in
+    /// the first.
+    std::size_t cut(std::span<std::uint32_t> lights) const {
+        Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
+        for (const std::uint32_t i : lights) {
+            low = min(low, moments_[i].mean);
+            high = max(high, moments_[i].mean);
+        }
+        const Vec3f size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        constexpr std::size_t bins = 16;
+        const auto bin_of = [&](std::uint32_t i) {
+            const float part = (moments_[i].mean[axis] - low[axis]) / std::max(size[axis], tiny<float>);
+            return std::min(static_cast<std::size_t>(part * bins), bins - 1);
+        };
+        std::array<Scatter, bins> in_bin;
+        for (const std::uint32_t i : lights) in_bin[bin_of(i)].add(moments_[i]);
+        std::array<float, bins> after{};  // of the bins from one on
+        Scatter sum;
+        for (std::size_t bin = bins - 1; bin > 0; --bin) {
+            sum.add(in_bin[bin]);
+            after[bin] = sum.total();
+        }
+        sum = {};
+        float least = std::numeric_limits<float>::infinity();
+        std::size_t best = 1;
+        for (std::size_t bin = 1; bin < bins; ++bin) {
+            sum.add(in_bin[bin - 1]);
+            if (const float total = sum.total() + after[bin]; total < least) least = total, best = bin;
+        }
+        const auto second =
+            std::partition(lights.begin(), lights.end(), [&](std::uint32_t i) { return bin_of(i) < best; });
+        const auto count = static_cast<std::size_t>(second - lights.begin());
+        return count > 0 && count < lights.size() ? count : lights.size() / 2;
+    }
+
+    float scatter_of(std::span<const std::uint32_t> lights) const {
+        Scatter sum;
+        for (const std::uint32_t i : lights) sum.add(moments_[i]);
+        return sum.total();
+    }
+
+    LightTree& tree_;
+    std::span<const Light> lights_;
+    std::vector<LightMoments> moments_;
+};
 
 LightTree::LightTree(std::span<const Light> lights) : leaves_(lights.size()) {
     std::vector<std::uint32_t> indices(lights.size());
     std::iota(indices.begin(), indices.end(), 0u);
-    if (!lights.empty()) build(lights, indices);
-}
-
-std::int32_t LightTree::build(std::span<const Light> lights, std::span<std::uint32_t> indices) {
-    const auto index = static_cast<std::int32_t>(nodes_.size());
-    nodes_.emplace_back();
-    // Suns apart from the rest; then halved along the longest side until there are eight parts, or single lights.
-    const auto is_sun = [&](std::uint32_t i) { return std::holds_alternative<SunLight>(lights[i]); };
-    const auto suns = std::partition(indices.begin(), indices.end(), is_sun);
-    const auto sun_count = static_cast<std::size_t>(suns - indices.begin());
-    std::vector<std::span<std::uint32_t>> parts;
-    for (const auto& part : {indices.first(sun_count), indices.subspan(sun_count)}) {
-        if (!part.empty()) parts.push_back(part);
-    }
-    while (parts.size() < light_tree_width) {
-        const auto largest = std::max_element(parts.begin(), parts.end(),
-                                              [](const auto& x, const auto& y) { return x.size() < y.size(); });
-        const std::span<std::uint32_t> part = *largest;
-        if (part.size() < 2) break;
-        *largest = part.first(part.size() / 2);
-        parts.push_back(part.subspan(part.size() / 2));
-        if (is_sun(part[0])) continue;  // which way to halve suns matters little
-        Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
-        for (const std::uint32_t i : part) {
-            low = min(low, center_of(lights[i]));
-            high = max(high, center_of(lights[i]));
-        }
-        const Vec3f size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-        std::nth_element(part.begin(), middle, part.end(), [&](std::uint32_t x, std::uint32_t y) {
-            return center_of(lights[x])[axis] < center_of(lights[y])[axis];
-        });
-    }
-    Node node;
-    node.count = parts.size();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].size() == 1) {
-            set_light(node.proxies, i, lights[parts[i][0]]);
-            node.child[i] = ~static_cast<std::int32_t>(parts[i][0]);
-            leaves_[parts[i][0]] = {index, i};
-        } else {
-            set_group(node.proxies, i, lights, parts[i]);
-            node.child[i] = build(lights, parts[i]);
-            nodes_[static_cast<std::size_t>(node.child[i])].parent = index;
-            nodes_[static_cast<std::size_t>(node.child[i])].place_in_parent = i;
-        }
-    }
-    node.parent = nodes_[static_cast<std::size_t>(index)].parent;
-    nodes_[static_cast<std::size_t>(index)] = node;
-    return index;
+    if (!lights.empty()) Builder(*this, lights).build(indices);
 }
 
 }  // namespace pivot

@@ -1,5 +1,7 @@
-// A tree over the scene's lights, eight children to a node. To a point that chooses among them, a child is a sphere of
-// even radiance: a light itself, or the bounds of those below it with the sum of what they shine.
+// A tree over the scene's lights, eight children to a node, neighbours in space next to each other. A child is a light,
+// or stands for those below it by their statistics: a Gaussian of places about their mean, that shines like one of
+// directions about their mean direction [Tokuyoshi24].
+//   [Tokuyoshi24] "Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting"
 #pragma once
 
 #include <array>
@@ -14,51 +16,53 @@ namespace pivot {
 
 inline constexpr std::size_t light_tree_width = 8;
 
-/// Lights, or groups of lights, each a sphere with the mean radiance over colours. A flat light or patch is the sphere
-/// of its area, seen at its slant; a sun is a cap.
-struct LightProxy {
-    Vec3b center;
-    Batch radius_m, radiance;
-    Vec3b normal;
-    Batch cos_cone, least_lit, two_sided, sun_versine;
+/// A light, or lights together, as a point that chooses among them knows them; what they emit is a mean over colours,
+/// of either sign, as a magnitude. A sun stands one metre off along its direction, from wherever it is seen.
+template <class T>
+struct LightProxyOf {
+    Vec3<T> mean;   ///< place, or direction of suns
+    T is_placed;    ///< 0: a sun's, or suns'
+    T variance_m2;  ///< of places, about the mean across any line of sight
+    T bound_m;      ///< no part is further from the mean
+    T intensity;    ///< W/sr at most, towards any side; 0: there is no such child
+    Vec3<T> axis;   ///< where a flat light, a spot or lights together shine; 0: everywhere
+    T sharpness;    ///< of lights together: of their Gaussian of directions
+    T radius_m;     ///< of a light: of the disk, facing the point, that has its area; 0: lights together
+    T cos_edge;     ///< a light falls off to nothing there, as cosines from its axis
+    T inverse_falloff_width;
+    T is_smooth;     ///< 1: it falls off like a spot; 0: linearly
+    T is_two_sided;  ///< 1 of a flat light that shines from both sides
 };
 
 /// Eight of them as a node keeps them.
-struct LightProxies {
-    using Values = std::array<float, light_tree_width>;
-    Values center_x{}, center_y{}, center_z{};  ///< of a sun: the direction towards it
-    Values radius_m{};
-    Values radiance{};                          ///< of either sign, as a magnitude; 0: there is no such child
-    Values normal_x{}, normal_y{}, normal_z{};  ///< where a flat light or a spot shines; else 0
-    Values cos_cone{};                          ///< of a spot's half-angle; 0 of a flat light
-    Values least_lit{};                         ///< the falloff towards any point is at least this
-    Values two_sided{};                         ///< 1 of a flat light that shines from both sides
-    Values sun_versine{};                       ///< above 0: this is a sun
-
+class LightProxies {
+   public:
     /// From child `first` on, one a lane.
-    LightProxy batch(std::size_t first) const {
-        return read([&](const Values& values) { return Batch::load_unaligned(&values[first]); });
+    LightProxyOf<Batch> batch(std::size_t first) const {
+        return read([&](const auto& values) { return Batch::load_unaligned(&values[first]); });
     }
     /// A child in every lane.
-    LightProxy broadcast(std::size_t child) const {
-        return read([&](const Values& values) { return Batch(values[child]); });
+    LightProxyOf<Batch> broadcast(std::size_t child) const {
+        return read([&](const auto& values) { return Batch(values[child]); });
     }
-
-    void set_sphere(std::size_t child, const Vec3f& center, float radius, float mean_radiance);
-    void set_flat(std::size_t child, const AreaLight& light);
+    LightProxyOf<float> operator[](std::size_t child) const;
+    void set(std::size_t child, const LightProxyOf<float>& proxy);
 
    private:
+    using Values = std::array<float, light_tree_width>;
+    static constexpr std::size_t numbers = sizeof(LightProxyOf<float>) / sizeof(float);
+
     template <class Of>
-    LightProxy read(const Of& of) const {
-        return {{of(center_x), of(center_y), of(center_z)},
-                of(radius_m),
-                of(radiance),
-                {of(normal_x), of(normal_y), of(normal_z)},
-                of(cos_cone),
-                of(least_lit),
-                of(two_sided),
-                of(sun_versine)};
+    LightProxyOf<Batch> read(const Of& of) const {
+        LightProxyOf<Batch> proxy;
+        for (std::size_t i = 0; i < numbers; ++i) {
+            const Batch number = of(values_[i]);
+            std::memcpy(reinterpret_cast<std::byte*>(&proxy) + i * sizeof(Batch), &number, sizeof(Batch));
+        }
+        return proxy;
     }
+
+    std::array<Values, numbers> values_{};  ///< each number of a proxy, of all children
 };
 
 class LightTree {
@@ -83,7 +87,7 @@ class LightTree {
     const Leaf& leaf(std::size_t light) const { return leaves_[light]; }
 
    private:
-    std::int32_t build(std::span<const Light> lights, std::span<std::uint32_t> indices);
+    class Builder;
 
     std::vector<Node> nodes_;
     std::vector<Leaf> leaves_;
