@@ -25,13 +25,17 @@ Vertex vertex_at(Scene& scene, const Material& material, const Triple& position,
     return {{}, point, make_surface(material, point.wo_local)};
 }
 
-/// A vertex that samples lamps alone, so many of them.
+/// A vertex that samples lamps alone, so many of them, or, where there are none, a mesh's triangles.
 BouncePlan plan_with(const Scene& scene, std::size_t light_samples) {
-    if (light_samples != 1 && light_samples != std::min(scene.lamps().size(), max_lamp_samples)) {
+    const bool has_lamps = !scene.lamps().empty();
+    const std::size_t all = has_lamps ? std::min(scene.lamps().size(), max_lamp_samples)
+                                      : std::min(scene.triangle_lights().size(), max_triangle_samples);
+    if (light_samples != 1 && light_samples != all) {
         throw py::value_error("light_samples must be 1, as at later vertices, or " + std::to_string(max_lamp_samples) +
-                              ", or as many as there are lights if they are fewer");
+                              " (triangles: " + std::to_string(max_triangle_samples) +
+                              "), or as many as there are lights if they are fewer");
     }
-    return {light_samples == 1 ? 1u : 0u, Dimensions(0), light_samples, 0};
+    return {0, Dimensions(0), has_lamps ? light_samples : 0, has_lamps ? 0 : light_samples};
 }
 
 py::tuple sample_lights(Scene& scene, const OwnedMaterial& material, const Triple& position, const Triple& wo,

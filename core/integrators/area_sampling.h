@@ -1,18 +1,23 @@
-// Samples of an area light in proportion to what a surface reflects of its parts. Each lobe has a grid of cells on the
-// light, chosen by the integrand at their centres; the grid is fit to the lobe, so few cells do. Shading frame about
-// the lit point, over float or SIMD batches.
+// Samples of an area light in proportion to what a surface reflects of its parts. Each lobe has a grid of nodes on what
+// of the light is above the surface; samples follow the integrand at the nodes, bilinear between them. The grid is fit
+// to the lobe, so few nodes do. Shading frame about the lit point, over float or SIMD batches.
 //
-// The GGX lobe is Student's t distribution of half-vector slopes, (1 + |m|^2 / alpha^2)^-2. Where the light comes
-// nearest to the mirrored view its slopes are linear in the place (x, y) on the light, so the lobe is such a
-// distribution there too: of x with a closed marginal, of y given x about a sheared centre. Both are warped by the
-// inverse of 1D Student's t, z / sqrt(1 + z^2), and cells are even in the warped numbers. For the diffuse lobe the warp
-// is even. u.x and u.y move the sample monotonously along x and y: stratification lasts.
+// The GGX lobe is Student's t distribution of half-vector slopes, (1 + |m|^2 / alpha^2)^-2. Near the light's place that
+// comes nearest to the mirrored view its slopes are linear in the place (x, y) on the light, so the lobe is such a
+// distribution there too: of x, and of y given x about a sheared centre. The diffuse lobe under an area light,
+// cos cos / d^2, is cos_i times the same distribution of d, and exactly. Nodes are even in the half angle's tangent
+// q = z / (1 + sqrt(1 + z^2)) of z = (x - center) / scale, whose tail is that of 1 / z^2: heavier than Student's, as
+// lobes are at grazing views. u.x and u.y move the sample monotonously along x and y: stratification lasts.
 //
-// Tried on three lights over glossy spheres, relMSE at 64 samples x CPU, the smaller the better: 3 x 3 cells 1, 2 x
-// 2 1.0 (but they weigh less evenly), 4 x 4 1.13; eight patches cut in eight again, chosen by ggx_cap, 4.2; five levels
-// of them 6.7 (relMSE 1.4, for u jumps between patches).
+// Tried, by the variance of samples (tests/benchmark/area_light_samples.py), the smaller the better: 3 x 3 cells of one
+// value at their centre, which do not end at the horizon, 2 to 50; 3 x 3 nodes 2, 4 x 4 (these) 1, 5 x 5 0.5; nodes
+// even in z / sqrt(1 + z^2), Student's own, 1, but 8 in the worst cases, all at grazing views; fitting the stretched
+// half vector in the place of its slopes 1; fitting where the mirrored view meets the light's plane, without the step
+// to the least slope, 2 to 5 beside the highlight. By relMSE x CPU of three lights over glossy spheres: eight patches
+// cut in eight again, chosen by ggx_cap, 4 times that of 3 x 3 cells, for u jumps between patches.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/bsdf/surface.h"
@@ -31,13 +36,46 @@ struct AreaView {
     Mask<T> ellipse, triangle;
 };
 
-/// Whether samples by area would vary without bound, so that BSDF samples must share: near the light, and at grazing
-/// views, where slopes are far from linear in the place. And always of a mesh's triangles: their choice among many
-/// knows less of the lobe than the lobe does.
+/// Whether samples of the light would vary without bound, so that BSDF samples must share: very near the light, and at
+/// grazing views, where slopes are far from linear in the place, if the light is much wider than the lobe. And always
+/// of a mesh's triangles: their choice among many knows less of the lobe than the lobe does.
 template <class T>
-Mask<T> needs_bsdf_samples(const AreaView<T>& light, const Vec3<T>& wo_local) {
-    const T reach_m = T(1.2f) * (length(light.half_u) + length(light.half_v));
-    return light.triangle || length_squared(light.center) < sqr(reach_m) || wo_local.z < T(0.05f);
+Mask<T> needs_bsdf_samples(const AreaView<T>& light, const JointSurface<T>& surface) {
+    const T reach_m = length(light.half_u) + length(light.half_v), distance2 = length_squared(light.center);
+    const Mask<T> is_wide = surface.fresnel_f0 + surface.fresnel_f90 > T(0) && surface.wo_local.z < T(0.15f) &&
+                            sqr(reach_m) > sqr(T(10) * surface.alpha) * distance2;
+    return light.triangle || distance2 < sqr(T(0.6f) * reach_m) || is_wide || surface.wo_local.z < T(0.05f);
+}
+
+/// Whether it is a triangle so far away, for its size, that its samples may be even by area: what a lobe makes of it is
+/// left to BSDF samples.
+template <class T>
+Mask<T> is_even_enough(const AreaView<T>& light) {
+    const T reach_m = length(light.half_u) + length(light.half_v);
+    return light.triangle && sqr(reach_m) < length_squared(light.center);
+}
+
+/// A place for u in [0, 1)^2, even by area.
+template <class T>
+Vec2<T> even_place(const AreaView<T>& light, const Vec2<T>& u) {
+    Vec2<T> place(T(2) * u.x - T(1), T(2) * u.y - T(1));
+    const auto put = [&](const Mask<T>& is_shape, const Vec2<T>& other) {
+        place = {select(is_shape, other.x, place.x), select(is_shape, other.y, place.y)};
+    };
+    if (any(light.ellipse)) {
+        const T radius = sqrt(u.x), angle = T(2) * pi<T> * u.y;
+        put(light.ellipse, {radius * cos(angle), radius * sin(angle)});
+    }
+    if (any(light.triangle)) put(light.triangle, place_in_triangle(u));
+    return place;
+}
+
+/// Area over the parallelogram's quarter.
+template <class T>
+T relative_area(const AreaView<T>& light) {
+    return select(
+        light.triangle, T(relative_area(AreaShape::triangle)),
+        select(light.ellipse, T(relative_area(AreaShape::ellipse)), T(relative_area(AreaShape::parallelogram))));
 }
 
 AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
@@ -58,240 +96,370 @@ SeenPlace<T> see(const AreaView<T>& light, const Vec2<T>& place) {
             max(-dot(wi, light.normal), T(0)) * sqr(per_distance) * light.parallelogram_m2};
 }
 
+/// A place and its density by (x, y).
+template <class T>
+struct AreaSample {
+    Vec2<T> place;
+    T pdf;
+};
+
 namespace detail {
 
-inline constexpr std::size_t area_columns = 3, area_rows = 3;
-/// Of each choice among cells this share is even: it bounds what a cell that looks dark at its centre can weigh.
-inline constexpr float area_even_share = 0.1f;
+template <class T>
+struct AreaSpan {
+    T low, high;
 
-/// One coordinate's warp: t = z / sqrt(1 + z^2), z = (x - center) / scale, over the t of an interval of x.
+    T nearest(T x) const { return min(max(x, low), high); }
+};
+
+/// How far the light reaches along half_v at x.
+template <class T>
+T half_height(const AreaView<T>& light, T x) {
+    T height(1);
+    if (any(light.triangle)) height = select(light.triangle, max(T(0.5) + T(0.5) * x, T(1e-3f)), height);
+    if (any(light.ellipse)) height = select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), height);
+    return height;
+}
+
+/// Where along half_v the light is above the horizon at x.
+template <class T>
+AreaSpan<T> y_above(const AreaView<T>& light, T x) {
+    const T height = half_height(light, x), rise = light.half_v.z, nearly = T(1.0f - 1e-4f) * height;
+    if (!any(light.center.z < abs(light.half_u.z) + abs(rise))) return {-height, height};
+    const T cut = -(light.center.z + x * light.half_u.z) / rise;
+    return {select(rise > T(0), min(max(cut, -height), nearly), -height),
+            select(rise < T(0), max(min(cut, height), -nearly), height)};
+}
+
+/// Where along half_u any of the light is above the horizon.
+template <class T>
+AreaSpan<T> x_above(const AreaView<T>& light) {
+    const T rise_u = light.half_u.z, rise_v = abs(light.half_v.z), z = light.center.z, nearly(1.0f - 1e-4f);
+    // The higher of the two sides rises evenly from x = 0; a triangle's from its tip.
+    const T slant = rise_u + select(light.triangle, T(0.5) * rise_v, T(0));
+    const T cut = -(z + select(light.triangle, T(0.5), T(1)) * rise_v) / slant;
+    T low = select(slant > T(0), cut, T(-1)), high = select(slant < T(0), cut, T(1));
+    if (any(light.ellipse)) {
+        // The rim is above within an angle of its highest place.
+        const T per_rise = inverse_sqrt(max(sqr(rise_u) + sqr(rise_v), tiny<T>));
+        const T cosine = min(max(-z * per_rise, T(-1)), T(1)), sine = sqrt(max(T(1) - sqr(cosine), T(0)));
+        const T top_x = rise_u * per_rise, top_y = rise_v * per_rise;
+        low = select(light.ellipse, select(top_x <= -cosine, T(-1), top_x * cosine - top_y * sine), low);
+        high = select(light.ellipse, select(top_x >= cosine, T(1), top_x * cosine + top_y * sine), high);
+    }
+    return {min(max(low, T(-1)), nearly), max(min(high, T(1)), -nearly)};
+}
+
+/// How a lobe's distribution (1 + |m|^2)^-2 changes with x and y where it is about m + x m_u + y m_v.
+template <class T>
+struct AreaFit {
+    T mm, um, vm, uu, uv, vv;  ///< products of m, m_u and m_v
+
+    /// A place nearer to where |m| is least on the light, from the place of the fit.
+    Vec2<T> least(const AreaView<T>& light, const AreaSpan<T>& x_span, const Vec2<T>& from) const {
+        const T per_vv = inverse(vv), slope = uv * per_vv;
+        const auto best_y = [&](T x) { return y_above(light, x).nearest(from.y - (vm + uv * (x - from.x)) * per_vv); };
+        const T free_x = from.x - (um - slope * vm) * inverse(across());
+        T x = x_span.nearest(free_x);
+        // The y that is best there may be out of reach; x is what it is with the nearest.
+        x = x_span.nearest(from.x - (um + uv * (best_y(x) - from.y)) * inverse(uu));
+        if (any(light.ellipse)) {
+            // From beside an ellipse, about where its rim is passed on the way to its centre.
+            const T free_y = from.y - (vm + uv * (free_x - from.x)) * per_vv;
+            const T shrink = inverse_sqrt(max(sqr(free_x) + sqr(free_y), T(1)));
+            x = select(light.ellipse, x_span.nearest(free_x * shrink), x);
+        }
+        return {x, best_y(x)};
+    }
+    /// |m_u|^2 across m_v: of x, whatever y is.
+    T across() const { return max(uu - sqr(uv) * inverse(vv), T(1e-6f)); }
+};
+
+template <class T>
+AreaFit<T> fit_of(const Vec3<T>& m, const Vec3<T>& m_u, const Vec3<T>& m_v) {
+    return {
+        dot(m, m), dot(m, m_u), dot(m, m_v), max(dot(m_u, m_u), T(1e-6f)), dot(m_u, m_v), max(dot(m_v, m_v), T(1e-6f))};
+}
+
+/// Of the GGX lobe: slopes in alphas.
+template <class T>
+AreaFit<T> fit_glossy(const AreaView<T>& light, const Vec3<T>& wo, T alpha, const Vec2<T>& at) {
+    const Vec3<T> d = light.center + at.x * light.half_u + at.y * light.half_v;
+    const T inverse_d = inverse_sqrt(max(dot(d, d), tiny<T>));
+    const Vec3<T> wi = d * inverse_d;
+    const T inverse_h = inverse(max(wo.z + wi.z, T(1e-3f))), per_alpha = inverse(alpha);
+    const Vec3<T> m((wo.x + wi.x) * inverse_h, (wo.y + wi.y) * inverse_h, T(0));
+    const auto change = [&](const Vec3<T>& along) {
+        const Vec3<T> turn = (along - dot(along, wi) * wi) * inverse_d;
+        return Vec3<T>(turn.x - m.x * turn.z, turn.y - m.y * turn.z, T(0)) * (inverse_h * per_alpha);
+    };
+    return fit_of(m * per_alpha, change(light.half_u), change(light.half_v));
+}
+
+/// Of the diffuse lobe: offsets in the light's plane in distances from it.
+template <class T>
+AreaFit<T> fit_diffuse(const AreaView<T>& light, const Vec2<T>& at) {
+    const T height = dot(light.center, light.normal);
+    const T size2 = dot(light.half_u, light.half_u) + dot(light.half_v, light.half_v);
+    const T per_height = inverse_sqrt(max(sqr(height), T(1e-6f) * size2));
+    const Vec3<T> offset = light.center + at.x * light.half_u + at.y * light.half_v - height * light.normal;
+    return fit_of(offset * per_height, light.half_u * per_height, light.half_v * per_height);
+}
+
+/// One coordinate's warp: q = z / (1 + sqrt(1 + z^2)), z = (x - center) / scale, over the q of a span of x that holds
+/// the centre.
 template <class T>
 struct AreaWarp {
-    T center, scale, t_low, t_width;
+    T center, scale, q_low, q_width;
 
-    static T to_t(T z) { return z * inverse_sqrt(T(1) + z * z); }
+    static T to_q(T z) { return z * inverse(T(1) + sqrt(T(1) + z * z)); }
 
     AreaWarp() = default;
-    AreaWarp(T center_, T scale_, T half_width) : center(center_), scale(scale_) {
+    AreaWarp(T center_, T scale_, const AreaSpan<T>& span) : center(center_), scale(scale_) {
         const T per_scale = inverse(scale);
-        t_low = to_t((-half_width - center) * per_scale);
-        t_width = max(to_t((half_width - center) * per_scale) - t_low, tiny<T>);
+        q_low = to_q((span.low - center) * per_scale);
+        q_width = max(to_q((span.high - center) * per_scale) - q_low, tiny<T>);
     }
     struct Place {
         T x, width;  ///< width: of all numbers, if x moved everywhere as it does here
     };
     Place place(T unit) const {
-        const T t = t_low + unit * t_width, stretch = inverse_sqrt(max(T(1) - t * t, T(1e-12f)));
-        return {center + scale * t * stretch, scale * t_width * stretch * sqr(stretch)};
+        const T q = q_low + unit * q_width, q2 = q * q, stretch = inverse(max(T(1) - q2, T(1e-6f)));
+        return {center + scale * T(2) * q * stretch, scale * q_width * T(2) * (T(1) + q2) * sqr(stretch)};
     }
-    T unit(T x) const { return (to_t((x - center) / scale) - t_low) / t_width; }
-    /// Density of place(uniform): 1 / width there.
-    T pdf(T x) const {
-        const T z = (x - center) / scale, s = T(1) / (T(1) + z * z);
-        return s * sqrt(s) / (scale * t_width);
+    T unit(T x) const { return min(max((to_q((x - center) * inverse(scale)) - q_low) * inverse(q_width), T(0)), T(1)); }
+};
+
+/// About the share of an ellipse's area on one side of x, from -1 to 1: in it strips of the ellipse are even, where in
+/// x they end with the slope of a root, which few nodes cannot follow. With w^2 = 1 - |x| the share beyond is w^3 (s0 +
+/// s1 w^2 + s2 w^4), exact at both ends, in value and in slope.
+template <class T>
+struct EllipseStrip {
+    static constexpr float s0 = 1.20042f, s1 = -0.17414f, s2 = -0.02628f;
+    T x, width;  ///< width: dx by the share
+
+    /// At x.
+    static T share(T x) {
+        const T w2 = max(T(1) - abs(x), T(0));
+        const T from_middle = T(1) - w2 * sqrt(w2) * (T(s0) + w2 * (T(s1) + w2 * T(s2)));
+        return select(x < T(0), -from_middle, from_middle);
+    }
+    /// At a share.
+    explicit EllipseStrip(T share) {
+        const T beyond = max(T(1) - abs(share), T(0)), root = cbrt(beyond);
+        const auto slope = [](T w2) { return T(3 * s0) + w2 * (T(5 * s1) + w2 * T(7 * s2)); };
+        T w = max(root * (T(0.94093f) + root * root * (T(0.03749f) + root * root * T(0.02073f))), T(1e-3f)),
+          w2 = sqr(w);
+        w -= (w * w2 * (T(s0) + w2 * (T(s1) + w2 * T(s2))) - beyond) * inverse(w2 * slope(w2));
+        w = max(w, T(1e-3f)), w2 = sqr(w);
+        x = select(share < T(0), w2 - T(1), T(1) - w2);
+        width = T(2) * inverse(w * slope(w2));
     }
 };
 
-/// Which of the equal parts of [0, 1) a number lies in.
-template <std::size_t n, class T>
-T part_of(T unit) {
-    return min(max(floor(unit * T(static_cast<float>(n))), T(0)), T(static_cast<float>(n - 1)));
-}
-
+/// A density over [0, 1], linear between n even nodes; its integral is 1.
 template <class T, std::size_t n>
-T at_index(const std::array<T, n>& values, T index) {
-    T value = values[0];
-    for (std::size_t i = 1; i < n; ++i) value = select(index >= T(static_cast<float>(i)), values[i], value);
-    return value;
-}
+struct LinearNodes {
+    std::array<T, n> value;
 
-/// Takes one of the parts by their probabilities: its index, and what is left of u within it.
-template <class T, std::size_t n>
-T choose_part(const std::array<T, n>& probability, T& u) {
-    T index(0), low(0), chosen = probability[0], sum = probability[0];
-    for (std::size_t i = 1; i < n; ++i) {
-        const auto beyond = u >= sum;
-        index = select(beyond, T(static_cast<float>(i)), index);
-        low = select(beyond, sum, low);
-        chosen = select(beyond, probability[i], chosen);
-        sum += probability[i];
+    /// How much of each node a number has.
+    static std::array<T, n> weights(T unit) {
+        const T at = unit * T(static_cast<float>(n - 1));
+        std::array<T, n> result;
+        for (std::size_t i = 0; i < n; ++i) result[i] = max(T(1) - abs(at - T(static_cast<float>(i))), T(0));
+        return result;
     }
-    u = min(max((u - low) / chosen, T(0)), T(1.0f - 0x1p-24f));
-    return index;
-}
+    T sample(T u) const {
+        constexpr float pieces = n - 1;
+        T low = value[0], high = value[1], left = u * T(2 * pieces), first(0);
+        T sum = low + high;  // twice what the piece holds
+        const T all = left;
+        for (std::size_t i = 1; i + 1 < n; ++i) {
+            const T piece = value[i] + value[i + 1];
+            const auto beyond = all >= sum;
+            first = select(beyond, T(static_cast<float>(i)), first);
+            low = select(beyond, value[i], low);
+            high = select(beyond, value[i + 1], high);
+            left = select(beyond, all - sum, left);
+            sum += piece;
+        }
+        // low t + (high - low) t^2 / 2 = left / 2
+        const T root = sqrt(max(low * low + (high - low) * left, T(0)));
+        return (first + min(left * inverse(low + root), T(1))) * T(1 / pieces);
+    }
+};
 
-/// How far the light reaches along half_v at x.
-template <class T>
-T half_height(const AreaView<T>& light, T x) {
-    return select(light.ellipse, sqrt(max(T(1) - x * x, T(1e-6f))), T(1));
-}
-
-/// One lobe's cells.
-template <class T>
+/// One lobe's n x n nodes.
+template <class T, std::size_t n>
 struct AreaGrid {
-    AreaWarp<T> x_warp;
+    T x_center, x_scale;
+    AreaWarp<T> x_warp;  ///< of x, or of an ellipse's share of strips
     T y_center, shear, y_scale;
-    std::array<T, area_columns> column;                      ///< probability
-    std::array<std::array<T, area_columns>, area_rows> row;  ///< probability within each column
-    T integral;                                              ///< of what the cells were chosen by
+    std::array<LinearNodes<T, n>, n> column;  ///< density over the unit square, by y at each node of x
+    LinearNodes<T, n> marginal;               ///< of x
+    T integral;                               ///< of what the nodes were filled by
 
-    AreaWarp<T> y_warp(const AreaView<T>& light, T x) const {
-        const T height = half_height(light, x), z = (x - x_warp.center) * inverse(x_warp.scale);
-        const T wanted = y_center + shear * (x - x_warp.center);
-        const T center = max(min(wanted, height), -height), off = (wanted - center) * inverse(y_scale);
-        return AreaWarp<T>(center, y_scale * sqrt(T(1) + z * z + off * off), height);
+    AreaGrid() = default;
+    AreaGrid(const AreaView<T>& light, const AreaSpan<T>& x_span, const Vec2<T>& center, const AreaFit<T>& fit) {
+        // What spreads less evenly than this leaves the tails to the few nodes that they have.
+        constexpr float narrower = 0.7f;
+        const T tail = T(narrower) * sqrt(T(1) + fit.mm), per_v = inverse_sqrt(fit.vv);
+        x_center = center.x;
+        x_scale = tail * inverse_sqrt(fit.across());
+        y_center = center.y;
+        shear = -fit.uv * sqr(per_v);
+        y_scale = tail * per_v;
+        AreaSpan<T> span = x_span;
+        T warp_center = x_center, warp_scale = x_scale;
+        if (any(light.ellipse)) {
+            // As wide as the strip of that width towards the middle.
+            const T share = EllipseStrip<T>::share(x_center), step = min(x_scale, T(1));
+            const T beside = x_center + select(x_center > T(0), -step, step);
+            const T width = abs(EllipseStrip<T>::share(beside) - share) * x_scale * inverse(step);
+            warp_center = select(light.ellipse, share, warp_center);
+            warp_scale = select(light.ellipse, width, warp_scale);
+            span.low = select(light.ellipse, EllipseStrip<T>::share(span.low), span.low);
+            span.high = select(light.ellipse, EllipseStrip<T>::share(span.high), span.high);
+        }
+        x_warp = AreaWarp<T>(warp_center, warp_scale, span);
     }
 
-    /// Fills the cells by value(x, y, dx, dy), the integrand by (x, y) in a cell of that size.
+    typename AreaWarp<T>::Place x_place(const AreaView<T>& light, T unit) const {
+        const auto place = x_warp.place(unit);
+        if (!any(light.ellipse)) return place;
+        const EllipseStrip<T> strip(place.x);
+        return {select(light.ellipse, strip.x, place.x), select(light.ellipse, strip.width * place.width, place.width)};
+    }
+    T x_unit(const AreaView<T>& light, T x) const {
+        return x_warp.unit(any(light.ellipse) ? select(light.ellipse, EllipseStrip<T>::share(x), x) : x);
+    }
+    AreaWarp<T> y_warp(const AreaView<T>& light, T x) const {
+        const AreaSpan<T> span = y_above(light, x);
+        const T z = (x - x_center) * inverse(x_scale);
+        const T wanted = y_center + shear * (x - x_center);
+        const T center = span.nearest(wanted), off = (wanted - center) * inverse(y_scale);
+        return AreaWarp<T>(center, y_scale * sqrt(T(1) + z * z + off * off), span);
+    }
+
+    /// Fills the nodes by value(wi), the integrand by solid angle.
     template <class Value>
     void fill(const AreaView<T>& light, const Value& value) {
-        constexpr float columns = area_columns, rows = area_rows;
-        std::array<T, area_columns> sums;
+        // Each node also has this share of the mean: what looks dark from the nodes is not.
+        constexpr float even_share = 0.05f;
+        constexpr float pieces = n - 1;
+        // The outer ones a little inside: an ellipse's strip has no width at its ends.
+        const auto node_at = [](std::size_t i) {
+            return T(std::min(std::max(static_cast<float>(i) / pieces, 1e-3f), 1.0f - 1e-3f));
+        };
+        const auto ends = [](std::size_t i) { return T(i == 0 || i + 1 == n ? 0.5f : 1.0f); };
+        const T plane_m = -dot(light.center, light.normal) * light.parallelogram_m2;  // solid angle is that by d^3
         integral = T(0);
-        for (std::size_t i = 0; i < area_columns; ++i) {
-            const auto [x, width] = x_warp.place(T((static_cast<float>(i) + 0.5f) / columns));
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto [x, width] = x_place(light, node_at(i));
             const AreaWarp<T> warp = y_warp(light, x);
-            const T dx = width * T(1 / columns);
-            sums[i] = T(0);
-            for (std::size_t j = 0; j < area_rows; ++j) {
-                const auto [y, height] = warp.place(T((static_cast<float>(j) + 0.5f) / rows));
-                const T dy = height * T(1 / rows);
-                row[j][i] = value(x, y, dx, dy) * dx * dy;
-                sums[i] += row[j][i];
+            const Vec3<T> from = light.center + x * light.half_u;
+            const T volume = plane_m * width;
+            T sum(0);
+            for (std::size_t j = 0; j < n; ++j) {
+                const auto [y, height] = warp.place(node_at(j));
+                const Vec3<T> d = from + y * light.half_v;
+                const T per_distance = inverse_sqrt(max(dot(d, d), tiny<T>));
+                T& node = column[i].value[j];
+                node = value(d * per_distance) * (height * per_distance) * (volume * sqr(per_distance));
+                sum += ends(j) * node;
             }
-            const auto lit = sums[i] > tiny<T>;
-            const T scale = select(lit, T(1.0f - area_even_share) * inverse(max(sums[i], tiny<T>)), T(0));
-            const T even = select(lit, T(area_even_share / rows), T(1 / rows));
-            for (std::size_t j = 0; j < area_rows; ++j) row[j][i] = row[j][i] * scale + even;
-            integral += sums[i];
+            marginal.value[i] = sum * T(1 / pieces);
+            integral += ends(i) * marginal.value[i];
         }
+        integral *= T(1 / pieces);
         const auto lit = integral > tiny<T>;
-        const T scale = select(lit, T(1.0f - area_even_share) / max(integral, tiny<T>), T(0));
-        const T even = select(lit, T(area_even_share / columns), T(1 / columns));
-        for (std::size_t i = 0; i < area_columns; ++i) column[i] = sums[i] * scale + even;
+        const T scale = select(lit, T(1.0f / (1.0f + even_share)) * inverse(max(integral, tiny<T>)), T(0));
+        const T even = select(lit, T(even_share / (1.0f + even_share)), T(1));
+        for (std::size_t i = 0; i < n; ++i) {
+            marginal.value[i] = marginal.value[i] * scale + even;
+            for (T& node : column[i].value) node = node * scale + even;
+        }
     }
 
-    Vec2<T> sample(const AreaView<T>& light, Vec2<T> u) const {
-        const T i = choose_part(column, u.x);
-        std::array<T, area_rows> rows;
-        for (std::size_t k = 0; k < area_rows; ++k) rows[k] = at_index(row[k], i);
-        const T x = x_warp.place((i + u.x) * T(1.0f / area_columns)).x;
-        const T j = choose_part(rows, u.y);
-        return {x, y_warp(light, x).place((j + u.y) * T(1.0f / area_rows)).x};
+    /// Nodes along y where x is that much of its nodes.
+    LinearNodes<T, n> row_at(const std::array<T, n>& of_x) const {
+        LinearNodes<T, n> row;
+        for (std::size_t j = 0; j < n; ++j) {
+            row.value[j] = of_x[0] * column[0].value[j];
+            for (std::size_t i = 1; i < n; ++i) row.value[j] += of_x[i] * column[i].value[j];
+        }
+        return row;
+    }
+
+    static T dot_of(const std::array<T, n>& a, const std::array<T, n>& b) {
+        T sum = a[0] * b[0];
+        for (std::size_t i = 1; i < n; ++i) sum += a[i] * b[i];
+        return sum;
+    }
+
+    AreaSample<T> sample(const AreaView<T>& light, const Vec2<T>& u) const {
+        const T unit_x = marginal.sample(u.x);
+        const auto [x, width] = x_place(light, unit_x);
+        const auto of_x = LinearNodes<T, n>::weights(unit_x);
+        LinearNodes<T, n> row = row_at(of_x);
+        const T in_all = dot_of(of_x, marginal.value), per_all = inverse(in_all);
+        for (T& node : row.value) node *= per_all;
+        const T unit_y = row.sample(u.y);
+        const auto [y, height] = y_warp(light, x).place(unit_y);
+        const T density = in_all * dot_of(LinearNodes<T, n>::weights(unit_y), row.value);
+        return {{x, y}, density * inverse(width * height)};
     }
 
     /// By x and y.
     T pdf(const AreaView<T>& light, const Vec2<T>& at) const {
         const AreaWarp<T> warp = y_warp(light, at.x);
-        const T i = part_of<area_columns>(x_warp.unit(at.x)), j = part_of<area_rows>(warp.unit(at.y));
-        std::array<T, area_rows> rows;
-        for (std::size_t k = 0; k < area_rows; ++k) rows[k] = at_index(row[k], i);
-        return T(static_cast<float>(area_columns * area_rows)) * at_index(column, i) * at_index(rows, j) *
-               x_warp.pdf(at.x) * warp.pdf(at.y);
+        const T unit_x = x_unit(light, at.x), unit_y = warp.unit(at.y);
+        const LinearNodes<T, n> row = row_at(LinearNodes<T, n>::weights(unit_x));
+        return dot_of(LinearNodes<T, n>::weights(unit_y), row.value) *
+               inverse(x_place(light, unit_x).width * warp.place(unit_y).width);
     }
 };
 
-/// Where the lobe lies on the light.
-template <class T>
-AreaGrid<T> fit_grid(const AreaView<T>& light, const Vec3<T>& wo, T alpha) {
-    AreaGrid<T> grid;
-    // The light's place nearest to where the mirrored view meets its plane.
-    const Vec3<T> mirrored(-wo.x, -wo.y, wo.z);
-    const T towards = max(-dot(mirrored, light.normal), T(1e-4f));
-    const Vec3<T> offset = mirrored * (-dot(light.center, light.normal) / towards) - light.center;
-    const Vec3<T> across_u = cross(light.half_v, light.normal), across_v = cross(light.normal, light.half_u);
-    const T per_m2 = inverse(light.parallelogram_m2);
-    T x = min(max(dot(offset, across_u) * per_m2, T(-1)), T(1));
-    const T height = half_height(light, x);
-    T y = min(max(dot(offset, across_v) * per_m2, -height), height);
-    // Below the horizon there is no lobe to fit: go towards the light's highest place.
-    const T rise_u = light.half_u.z, rise_v = light.half_v.z;
-    const T shrink = select(light.ellipse, inverse_sqrt(max(rise_u * rise_u + rise_v * rise_v, tiny<T>)), T(0));
-    const T end_x = select(rise_u < T(0), T(-1), T(1)), end_y = select(rise_v < T(0), T(-1), T(1));
-    const T top_x = select(light.ellipse, rise_u * shrink, end_x);
-    const T top_y = select(light.ellipse, rise_v * shrink, end_y);
-    const T top_z = light.center.z + top_x * rise_u + top_y * rise_v;
-    const T z = light.center.z + x * rise_u + y * rise_v, fall = max(top_z - z, tiny<T>);
-    const T kept = select(z < T(0.05) * top_z, min(max(T(0.95) * top_z / fall, T(0)), T(1)), T(1));
-    x = top_x + kept * (x - top_x);
-    y = top_y + kept * (y - top_y);
-
-    // Slopes there, in alphas, and how they change with x and y.
-    const Vec3<T> d = light.center + x * light.half_u + y * light.half_v;
-    const T inverse_d = inverse_sqrt(max(dot(d, d), tiny<T>));
-    const Vec3<T> wi = d * inverse_d;
-    const T h_z = max(wo.z + wi.z, T(1e-3f)), inverse_h = inverse(h_z);
-    const Vec2<T> m((wo.x + wi.x) * inverse_h, (wo.y + wi.y) * inverse_h);
-    const T per_alpha = inverse(alpha);
-    const auto slope_change = [&](const Vec3<T>& along) {
-        const Vec3<T> turn = (along - dot(along, wi) * wi) * inverse_d;
-        return Vec2<T>((turn.x - m.x * turn.z) * inverse_h * per_alpha,
-                       (turn.y - m.y * turn.z) * inverse_h * per_alpha);
-    };
-    const Vec2<T> m_u = slope_change(light.half_u), m_v = slope_change(light.half_v);
-    const T tail = sqrt(T(1) + dot(m, m) * per_alpha * per_alpha);
-    const T vv = max(dot(m_v, m_v), T(1e-6f)), uv = dot(m_u, m_v);
-    const T shear = -uv * inverse(vv), uu = max(dot(m_u, m_u) + uv * shear, T(1e-6f));  // of x whatever y
-    grid.x_warp = AreaWarp<T>(x, tail * inverse_sqrt(uu), T(1));
-    grid.y_center = y;
-    grid.shear = shear;
-    grid.y_scale = tail * inverse_sqrt(vv);
-    return grid;
-}
-
 }  // namespace detail
 
-/// Joint samples of a rectangle or an ellipse that shines on the lit point, dot(center, normal) < 0.
+/// Joint samples of an area light that shines on the lit point, dot(center, normal) < 0.
 template <class T>
 class AreaSampler {
    public:
-    AreaSampler(const JointSurface<T>& surface, const AreaView<T>& light) : surface_(surface), light_(light) {
+    AreaSampler(const JointSurface<T>& surface, const AreaView<T>& light) : light_(light) {
         const Mask<T> has_diffuse = surface.diffuse > T(0);
         const Mask<T> has_glossy = surface.fresnel_f0 + surface.fresnel_f90 > T(0);
         uses_diffuse_ = any(!has_glossy || has_diffuse);
         uses_glossy_ = any(has_glossy);
+        const detail::AreaSpan<T> x_span = detail::x_above(light);
+        const T x = x_span.nearest(T(0));
+        const Vec2<T> middle(x, detail::y_above(light, x).nearest(T(0)));
         T diffuse(0), glossy(0);
         if (uses_diffuse_) {
-            diffuse_.x_warp = detail::AreaWarp<T>(T(0), T(1e3f), T(1));
-            diffuse_.y_center = diffuse_.shear = T(0);
-            diffuse_.y_scale = T(1e3f);
-            diffuse_.fill(light, [&](T x, T y, T dx, T dy) {
-                const SeenPlace<T> seen = see(light, Vec2<T>(x, y));
-                return cosine_of_cell(seen, dx, dy) * seen.omega_per_xy;
-            });
+            const Vec2<T> center = detail::fit_diffuse(light, middle).least(light, x_span, middle);
+            diffuse_ = {light, x_span, center, detail::fit_diffuse(light, center)};
+            diffuse_.fill(light, [](const Vec3<T>& wi) { return max(wi.z, T(0)); });
             diffuse = surface.diffuse * diffuse_.integral * T(1.0f / pi<float>);
         }
-        if (uses_glossy_) {
-            glossy_ = detail::fit_grid(light, surface.wo_local, surface.alpha);
-            const T alpha2 = surface.alpha * surface.alpha;
-            glossy_.fill(light, [&](T x, T y, T dx, T dy) {
-                const SeenPlace<T> seen = see(light, Vec2<T>(x, y));
-                const Vec3<T> h = surface.wo_local + seen.wi;
-                const T h2 = dot(h, h), slope = h.x * h.x + h.y * h.y + alpha2 * h.z * h.z;
-                const T cos_i = cosine_of_cell(seen, dx, dy);
-                const T masking = cos_i * inverse(cos_i + sqrt(alpha2 + (T(1) - alpha2) * cos_i * cos_i));
-                return sqr(h2 * inverse(slope)) * masking * seen.omega_per_xy;
-            });
-            const T fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(surface.wo_local.z));
-            glossy = fresnel * glossy_.integral * alpha2 * ggx_g1(surface.wo_local, surface.alpha, surface.alpha) /
-                     (T(2.0f * pi<float>) * surface.wo_local.z);
-        }
-        const T share = glossy / max(diffuse + glossy, tiny<T>);
+        if (uses_glossy_) glossy = fit_highlight(surface, x_span);
+        const T share = glossy * inverse(max(diffuse + glossy, tiny<T>));
         const T both = max(min(share, T(1.0f - min_lobe_probability)), T(min_lobe_probability));
         glossy_probability_ = select(has_glossy, select(has_diffuse, both, T(1)), T(0));
     }
 
     const AreaView<T>& light() const { return light_; }
 
-    /// (x, y) of a place on the light. u.x also chooses the lobe.
-    Vec2<T> sample(const Vec2<T>& u) const {
+    /// u.x also chooses the lobe.
+    AreaSample<T> sample(const Vec2<T>& u) const {
         if (!uses_glossy_) return diffuse_.sample(light_, u);
         if (!uses_diffuse_) return glossy_.sample(light_, u);
         const Mask<T> is_glossy = u.x < glossy_probability_;
         const T u_x = select(is_glossy, u.x / max(glossy_probability_, tiny<T>),
                              (u.x - glossy_probability_) / max(T(1) - glossy_probability_, tiny<T>));
-        const Vec2<T> glossy = glossy_.sample(light_, {u_x, u.y}), diffuse = diffuse_.sample(light_, {u_x, u.y});
-        return {select(is_glossy, glossy.x, diffuse.x), select(is_glossy, glossy.y, diffuse.y)};
+        const Vec2<T> glossy = glossy_.sample(light_, {u_x, u.y}).place;
+        const Vec2<T> diffuse = diffuse_.sample(light_, {u_x, u.y}).place;
+        const Vec2<T> place(select(is_glossy, glossy.x, diffuse.x), select(is_glossy, glossy.y, diffuse.y));
+        return {place, pdf(place)};
     }
 
     /// Density of sample() by (x, y).
@@ -301,16 +469,37 @@ class AreaSampler {
     }
 
    private:
-    /// At its centre, or of what of a cell is above the horizon that its centre is below.
-    T cosine_of_cell(const SeenPlace<T>& seen, T dx, T dy) const {
-        const T rise =
-            T(0.5) * (dx * abs(light_.half_u.z) + dy * abs(light_.half_v.z)) * inverse(max(seen.distance_m, tiny<T>));
-        return max(max(seen.wi.z, T(0.25) * (seen.wi.z + rise)), T(0));
+    /// Fits the highlight's grid; returns about what the lobe reflects.
+    T fit_highlight(const JointSurface<T>& surface, const detail::AreaSpan<T>& x_span) {
+        const Vec3<T>& wo = surface.wo_local;
+        // From the light's place nearest to where the mirrored view meets its plane.
+        const Vec3<T> mirrored(-wo.x, -wo.y, wo.z);
+        const T towards = max(-dot(mirrored, light_.normal), T(1e-4f));
+        const Vec3<T> offset = mirrored * (-dot(light_.center, light_.normal) / towards) - light_.center;
+        const T per_m2 = inverse(light_.parallelogram_m2);
+        const T x = x_span.nearest(dot(offset, cross(light_.half_v, light_.normal)) * per_m2);
+        const T y = detail::y_above(light_, x).nearest(dot(offset, cross(light_.normal, light_.half_u)) * per_m2);
+        const Vec2<T> center =
+            detail::fit_glossy(light_, wo, surface.alpha, Vec2<T>(x, y)).least(light_, x_span, Vec2<T>(x, y));
+        glossy_ = {light_, x_span, center, detail::fit_glossy(light_, wo, surface.alpha, center)};
+
+        const T alpha2 = sqr(surface.alpha), room = T(1) - alpha2;
+        const T masked_view = sqrt(alpha2 + room * sqr(wo.z)) * inverse(wo.z);  // 1 + 2 Lambda
+        glossy_.fill(light_, [&](const Vec3<T>& wi) {
+            const Vec3<T> h = wo + wi;
+            const T across2 = sqr(h.x) + sqr(h.y), up2 = sqr(h.z), cos_i = max(wi.z, T(0));
+            const T shadowed = cos_i * masked_view + sqrt(alpha2 + room * sqr(cos_i));
+            return sqr(across2 + up2) * cos_i * inverse(sqr(across2 + alpha2 * up2) * shadowed);
+        });
+        const Vec3<T> h = wo + see(light_, center).wi;
+        const T cos_oh = min(dot(wo, h) * inverse_sqrt(max(dot(h, h), tiny<T>)), T(1));
+        const T fresnel = lerp(surface.fresnel_f0, surface.fresnel_f90, schlick_weight(cos_oh));
+        return fresnel * glossy_.integral * alpha2 * inverse(T(2.0f * pi<float>) * wo.z);
     }
 
-    JointSurface<T> surface_;
     AreaView<T> light_;
-    detail::AreaGrid<T> diffuse_, glossy_;
+    detail::AreaGrid<T, 3> diffuse_;
+    detail::AreaGrid<T, 4> glossy_;
     T glossy_probability_;
     bool uses_diffuse_, uses_glossy_;
 };

@@ -37,8 +37,9 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
 
 /// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces that
 /// have more lobes than these know, are sampled one by one.
-LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
-                                   const LightPicks& picks, std::uint32_t dimension, SharedLamps& shared_lamps) {
+LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, std::uint32_t bounce,
+                                   const VertexBatch& vertices, const LightPicks& picks, std::uint32_t dimension,
+                                   SharedLamps& shared_lamps) {
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
@@ -81,7 +82,9 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
                                       return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
                                   }) > Batch(0.0f);
         sample_kind(!is_area, sample_cap_lights);
-        sample_kind(is_area, sample_area_lights);
+        sample_kind(is_area,
+                    [&](const VertexBatch& all, const std::array<const Light*, batch_size>& of_kind,
+                        const Vec2b& u_place) { return sample_area_lights(all, of_kind, u_place, bounce == 0); });
     }
     if (!any(left)) return samples;
     const auto is_left = store(left);
@@ -89,8 +92,8 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, c
     const Lanes u_x = store(u.x), u_y = store(u.y);
     for (std::size_t i = 0; i < vertices.count(); ++i) {
         if (!is_left[i]) continue;
-        const SharedSample one =
-            sample_light_of(*lights[i], strategy, vertices.lane(i), {u_x[i], u_y[i]}, picks.expected_samples[i]);
+        const SharedSample one = sample_light_of(*lights[i], strategy_at(bounce, *lights[i], strategy),
+                                                 vertices.lane(i), {u_x[i], u_y[i]}, picks.expected_samples[i]);
         each[i] = one.sample;
         if (one.shares) share(i);
     }
@@ -182,8 +185,8 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
-        LightSampleOf<Batch> samples =
-            sample_lights(scene, strategy, vertices, picks[k], plan.dimensions.light_place(place), shared_lamps);
+        LightSampleOf<Batch> samples = sample_lights(scene, strategy, plan.bounce, vertices, picks[k],
+                                                     plan.dimensions.light_place(place), shared_lamps);
         if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
         visit_with_rays(samples);
     }

@@ -117,7 +117,7 @@ LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<cons
 }
 
 LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
-                               const Vec2b& u) {
+                               const Vec2b& u, bool lamps_jointly) {
     const SurfacePointOf<Batch>& point = vertices.point;
     const SurfaceOf<Batch>& surface = vertices.surface;
     const auto light = pack_lights<AreaLightOf>(lights, area_light);
@@ -136,16 +136,14 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     LaneSamples lit{.sample = {Vec3b(zero), point.frame.z, zero},
                     .valid = BatchMask(true),
                     .pdf_omega = Batch(1.0f),
-                    .needs_bsdf = needs_bsdf_samples(view, surface.wo_local)};
+                    .needs_bsdf = needs_bsdf_samples(view, joint_surface(surface)) || BatchMask(!lamps_jointly)};
     if (!any(reached)) return lit;
-    // A triangle of many is small, or shares with BSDF samples what it is too large for.
-    Vec2b place = place_in_triangle(u);
-    Batch pdf_xy(1.0f / relative_area(AreaShape::triangle));
-    if (any(!is_triangle)) {
-        const AreaSampler<Batch> sampler(joint_surface(surface), view);
-        const Vec2b joint = sampler.sample(u);
-        place = {select(is_triangle, place.x, joint.x), select(is_triangle, place.y, joint.y)};
-        pdf_xy = select(is_triangle, pdf_xy, max(sampler.pdf(joint), tiny<Batch>));
+    Vec2b place = even_place(view, u);
+    Batch pdf_xy = inverse(relative_area(view));
+    if (const BatchMask even = is_even_enough(view) || (BatchMask(!lamps_jointly) && !is_triangle); any(!even)) {
+        const auto joint = AreaSampler<Batch>(joint_surface(surface), view).sample(u);
+        place = {select(even, place.x, joint.place.x), select(even, place.y, joint.place.y)};
+        pdf_xy = select(even, pdf_xy, max(joint.pdf, tiny<Batch>));
     }
     const auto seen = see(view, place);
     lit.sample.wi = point.frame.to_world(seen.wi);

@@ -29,8 +29,9 @@ struct LaneSamples {
 LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
                               const Vec2b& u);
 
-/// Samples of area lights: lamps jointly with the lobes, triangles evenly by area.
+/// Samples of area lights, even by area: or, triangles where they are near and lamps where wanted, jointly with the
+/// lobes.
 LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
-                               const Vec2b& u);
+                               const Vec2b& u, bool lamps_jointly);
 
 }  // namespace pivot

@@ -32,18 +32,17 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     if (strategy == LightSampling::bsdf) return;
     diffuse_technique_ = glossy_technique_ = Technique::uniform;
     const bool has_lobes = surface.has_lobes(), transmits = surface.transmits();
-    const auto* placed = std::get_if<AreaLight>(&light);
-    if (placed && !placed->is_two_sided() && strategy == LightSampling::joint && !transmits) {
-        const AreaLight& area = *placed;
-        const AreaView<float> view = view_from(area, point);
-        if (dot(view.center, view.normal) < 0.0f)
-            area_.emplace(joint_surface_of_all(surface), view);
-        else
+    const auto* area = std::get_if<AreaLight>(&light);
+    if (area && strategy == LightSampling::joint && !transmits) {
+        const AreaView<float> view = view_from(*area, point);
+        if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
+        else if (!is_even_enough(view))
+            area_.emplace(joint_surface_of_all(surface), view);
         const Highlights highlights = highlights_of(surface);
         const bool is_as_of_base =
             !has_lobes || (!surface.has_glossy() && highlights.is_one_of_a_base() && highlights.are_close);
-        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, surface.wo_local);
+        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, joint_surface(surface));
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -151,11 +150,11 @@ float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const
 std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
     if (area_) {
-        const Vec2f at = area_->sample(u);
+        const auto [at, pdf] = area_->sample(u);
         const SeenPlace<float> seen = see(area_->light(), at);
         if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
         return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, std::get<AreaLight>(light_).radiance,
-                          area_->pdf(at) / seen.omega_per_xy};
+                          pdf / seen.omega_per_xy};
     }
     if (!cap_) return sample_light(light_, point_.position, u);
     // The first number chooses the technique, and what is left of it the place: points stay evenly spread.

@@ -23,25 +23,25 @@ void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& f
 }
 
 /// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
-float bsdf_weight(const Light& light, LightSampling strategy, const Vertex& vertex, const LightPoint& place,
-                  float expected_samples, float bsdf_pdf_omega) {
-    const LightSampler sampler(light, vertex.point, vertex.surface, strategy);
+float bsdf_weight(const Light& light, LightSampling strategy, std::uint32_t bounce, const Vertex& vertex,
+                  const LightPoint& place, float expected_samples, float bsdf_pdf_omega) {
+    const LightSampler sampler(light, vertex.point, vertex.surface, strategy_at(bounce, light, strategy));
     if (!sampler.shares_with_bsdf()) return 0.0f;
     return balance(bsdf_pdf_omega, expected_samples * sampler.pdf_omega(place));  // 0: BSDF samples are alone
 }
 
 /// What a BSDF sample that reaches distance_m meets of the lamps that its vertex sampled.
-Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, const Vertex& vertex, const Vec3f& wi,
-              float bsdf_pdf_omega, float distance_m, std::uint32_t sample) {
+Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const SharedLamp> lamps, const Vertex& vertex,
+              const Vec3f& wi, float bsdf_pdf_omega, float distance_m, std::uint32_t sample) {
     Rgb radiance(0.0f);
     for (const auto& [index, expected] : lamps) {
         const Light& lamp = work.scene.light(index);
         const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
         if (!place || place->distance_m > distance_m) continue;
-        Rgb light =
-            place->radiance *
-            (bsdf_weight(lamp, work.settings.light_sampling, vertex, *place, expected, bsdf_pdf_omega) / expected);
+        Rgb light = place->radiance *
+                    (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
+                     expected);
         if (fog)
             light *=
                 fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
@@ -52,14 +52,14 @@ Rgb lamps_met(const Work& work, Fog* fog, std::span<const SharedLamp> lamps, con
 }
 
 /// The weight of the emission that a lane's BSDF sample meets on a surface: less than 1 if its triangle is sampled too.
-float emission_weight(const Work& work, const VertexBatch& vertices, const VertexLights& lights, std::size_t lane,
-                      const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
+float emission_weight(const Work& work, std::uint32_t bounce, const VertexBatch& vertices, const VertexLights& lights,
+                      std::size_t lane, const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
     const auto index = work.scene.light_of(hit);
     if (!index) return 1.0f;
     const Light& light = work.scene.light(*index);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return 1.0f;
-    return bsdf_weight(light, work.settings.light_sampling, vertices.lane(lane), *place,
+    return bsdf_weight(light, work.settings.light_sampling, bounce, vertices.lane(lane), *place,
                        lights.expected_samples(lane, *index), bsdf_pdf_omega);
 }
 
@@ -212,7 +212,7 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         Rgb light(0.0f);
         if (!shared.at(i).empty())
             (fog ? lamps[i] : light) =
-                lamps_met(work, fog, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
+                lamps_met(work, fog, bounce, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
                           is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity(), path.sample);
         bool shines_by_program = false;
         if (is_met) {
@@ -220,8 +220,8 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
             const Shader& shader = scene.shaders()[arrival.material];
             shines_by_program = shader.has_varying_emission();
             if (shader.is_emissive()) {
-                path.emission_weight =
-                    emission_weight(work, batch.vertices, lights, i, arrival.direction, pdf_omega[i], arrival.hit);
+                path.emission_weight = emission_weight(work, bounce, batch.vertices, lights, i, arrival.direction,
+                                                       pdf_omega[i], arrival.hit);
                 if (!shines_by_program) light += path.emission_weight * shader.constants.emission;
             }
         }

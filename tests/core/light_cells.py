@@ -40,31 +40,40 @@ class CapLight:
 
 @dataclass(frozen=True)
 class FlatLight:
-    """A rectangle: (s, t) along its sides; or an ellipse: squared radius and azimuth."""
+    """A rectangle: (s, t) along its sides; an ellipse: squared radius and azimuth; a mesh's triangle: its share up to a
+    side's parallel, and along that. light is then its corners (3, 3)."""
 
     light: object
     center: Array
     half_u: Array
     half_v: Array
     ellipse: bool
+    triangle: bool = False
 
     def directions(self, place: Array) -> tuple[Array, Array]:
         xy = 2 * place - 1
         if self.ellipse:
             r, phi = np.sqrt(place[:, 0]), 2 * np.pi * place[:, 1]
             xy = np.stack([r * np.cos(phi), r * np.sin(phi)], -1)
+        if self.triangle:
+            along = np.sqrt(place[:, 0])
+            xy = np.stack([2 * along - 1, along * xy[:, 1]], -1)
         to_light = self.center + xy[:, :1] * self.half_u + xy[:, 1:] * self.half_v
         normal = np.cross(self.half_u, self.half_v)  # as long as a quarter of the rectangle's area
         distance = np.linalg.norm(to_light, axis=-1)
-        area = np.pi if self.ellipse else 4.0
+        area = np.pi if self.ellipse else 2.0 if self.triangle else 4.0
         return to_light / distance[:, None], area * np.abs(to_light @ normal) / distance**3
 
     def places(self, wi: Array) -> Array:
         normal = np.cross(self.half_u, self.half_v)
         on_light = wi * (self.center @ normal / (wi @ normal))[:, None] - self.center
-        xy = np.stack([on_light @ half / (half @ half) for half in (self.half_u, self.half_v)], -1)
+        across_u, across_v = np.cross(self.half_v, normal), np.cross(normal, self.half_u)
+        xy = np.stack([on_light @ across_u, on_light @ across_v], -1) / (normal @ normal)
         if self.ellipse:
             return np.stack([(xy**2).sum(-1), np.arctan2(xy[:, 1], xy[:, 0]) / (2 * np.pi) % 1], -1)
+        if self.triangle:
+            along = 0.5 + 0.5 * xy[:, 0]
+            return np.stack([along**2, 0.5 + 0.5 * xy[:, 1] / np.maximum(along, 1e-9)], -1)
         return 0.5 * xy + 0.5
 
 
@@ -116,6 +125,12 @@ def flat(
         v = -v
     light = pivot_core.AreaLight(center, tuple(u), tuple(v), (1.0, 1.0, 1.0), ellipse)
     return FlatLight(light, np.array(center), u, v, ellipse)
+
+
+def triangle(*corners: tuple[float, float, float]) -> FlatLight:
+    a, b, c = np.array(corners)
+    half_u, half_v = 0.5 * (0.5 * (b + c) - a), 0.5 * (c - b)
+    return FlatLight(np.array(corners, np.float32), a + half_u, half_u, half_v, ellipse=False, triangle=True)
 
 
 def density_grid(density: Callable[[Array], Array], seen: SeenLight, size: int) -> Array:

@@ -8,8 +8,20 @@ import itertools
 import numpy as np
 import pivot_core
 import pytest
-from light_cells import Array, SeenLight, count_grid, density_grid, equal_cells, flat, sphere, spot, sun
-from scenes import set_camera
+from light_cells import (
+    Array,
+    FlatLight,
+    SeenLight,
+    count_grid,
+    density_grid,
+    equal_cells,
+    flat,
+    sphere,
+    spot,
+    sun,
+    triangle,
+)
+from scenes import place, set_camera
 from scipy.stats import chi2
 
 MODES = ("JOINT", "SPTD", "MIS", "LIGHT")  # BSDF draws no light samples
@@ -25,6 +37,11 @@ LIGHTS: dict[str, list[SeenLight]] = {
     "rectangle": [flat((-1.0, 0.8, 1.5), (0.9, 0.2, 0.0), (-0.1, 0.45, -0.3))],
     "large rectangle": [flat((0.3, 0.2, 0.4), (2.0, 0.0, 0.3), (0.0, 1.0, 0.0))],
     "disk": [flat((0.5, -1.0, 1.8), (0.6, 0.0, 0.0), (0.0, 0.6, 0.0), ellipse=True)],
+    "rectangle across the horizon": [flat((-1.5, 0.6, 0.1), (0.2, 0.3, 0.5), (0.1, 0.7, -0.4))],
+    "ellipse across the horizon": [flat((-1.5, 0.6, -0.1), (0.1, 0.4, 0.6), (0.3, 0.5, -0.2), ellipse=True)],
+    "triangle": [triangle((-1.0, 0.2, 1.4), (0.7, 0.9, 0.9), (-0.4, -1.3, 0.8))],
+    "small triangle": [triangle((-1.0, 0.8, 1.4), (-0.8, 1.0, 1.5), (-1.1, 0.9, 1.8))],
+    "triangle across the horizon": [triangle((-1.2, -0.8, 0.3), (-0.9, 0.9, -0.4), (-0.7, 0.4, 0.9))],
     "three lights": [
         sphere((1.0, 0.5, 2.0), 0.3),
         sun((0.0, -0.6, 0.8), 0.05),
@@ -72,7 +89,12 @@ class Case:
         self.lights = LIGHTS[light]
         self.scene = pivot_core.Scene()
         for seen in self.lights:
-            self.scene.add_light("light", seen.light)
+            if isinstance(seen, FlatLight) and seen.triangle:
+                mesh = self.scene.add_mesh("mesh", seen.light, np.arange(3), np.arange(3)[None])
+                shines = self.scene.add_material("emitter", pivot_core.Material(emission=WHITE))
+                self.scene.add_instances("triangle", mesh, place(), [shines])
+            else:
+                self.scene.add_light("light", seen.light)
         set_camera(self.scene, (0, 0, 10))
         middle = self.lights[0].directions(np.array([[0.5, 0.5]]))[0][0]
         azimuth, angle = np.arctan2(-middle[1], -middle[0]), VIEWS_RAD[view]
