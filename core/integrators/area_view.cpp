@@ -1,4 +1,4 @@
-#include "core/integrators/area_sampling.h"
+#include "core/integrators/area_view.h"
 
 namespace pivot {
 

@@ -1,0 +1,60 @@
+// An area light as a lit point sees it: its places, and what they take of the directions. Shading frame about the
+// point, over float or SIMD batches.
+#pragma once
+
+#include "core/geometry/surface_point.h"
+#include "core/lights/light.h"
+
+namespace pivot {
+
+/// An area light from a lit point: places are center + x half_u + y half_v.
+template <class T>
+struct AreaView {
+    Vec3<T> center, half_u, half_v;
+    Vec3<T> normal;      ///< of the side towards the point, if that shines
+    T parallelogram_m2;  ///< |half_u x half_v|
+    Mask<T> ellipse, triangle;
+};
+
+/// A place for u in [0, 1)^2, even by area.
+template <class T>
+Vec2<T> even_place(const AreaView<T>& light, const Vec2<T>& u) {
+    Vec2<T> place(T(2) * u.x - T(1), T(2) * u.y - T(1));
+    const auto put = [&](const Mask<T>& is_shape, const Vec2<T>& other) {
+        place = {select(is_shape, other.x, place.x), select(is_shape, other.y, place.y)};
+    };
+    if (any(light.ellipse)) {
+        const T radius = sqrt(u.x), angle = T(2) * pi<T> * u.y;
+        put(light.ellipse, {radius * cos(angle), radius * sin(angle)});
+    }
+    if (any(light.triangle)) put(light.triangle, place_in_triangle(u));
+    return place;
+}
+
+/// Area over the parallelogram's quarter.
+template <class T>
+T relative_area(const AreaView<T>& light) {
+    return select(
+        light.triangle, T(relative_area(AreaShape::triangle)),
+        select(light.ellipse, T(relative_area(AreaShape::ellipse)), T(relative_area(AreaShape::parallelogram))));
+}
+
+AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
+
+/// A place on the light as the lit point sees it.
+template <class T>
+struct SeenPlace {
+    Vec3<T> wi;
+    T distance_m;
+    T omega_per_xy;  ///< solid angle by (x, y)
+};
+template <class T>
+SeenPlace<T> see(const AreaView<T>& light, const Vec2<T>& place) {
+    const Vec3<T> d = light.center + place.x * light.half_u + place.y * light.half_v;
+    const T distance2 = dot(d, d), per_distance = inverse_sqrt(max(distance2, tiny<T>));
+    const Vec3<T> wi = d * per_distance;
+    return {wi, distance2 * per_distance,
+            max(-dot(wi, light.normal), T(0)) * sqr(per_distance) * light.parallelogram_m2};
+}
+
+}  // namespace pivot
