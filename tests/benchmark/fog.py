@@ -31,9 +31,12 @@ from pathlib import Path
 
 import fog_scenes as scenes
 import fog_smoke
-import indirect
+import indirect_table
 import monte_carlo_table as table
-from monte_carlo_pictures import Gallery, Renderer, find_blenders, has_pivot
+from monte_carlo_filters import FILTERS
+from monte_carlo_find import find_blenders, has_pivot
+from monte_carlo_measure import measure
+from monte_carlo_pictures import Gallery, Renderer
 
 OUTPUT = Path(__file__).resolve().parents[2] / "build" / "fog"
 WORKER = "fog_blender.py"
@@ -43,7 +46,7 @@ BUILDERS = tuple(Path(module.__file__ or "") for module in (scenes, scenes.parts
 
 
 def pivot_renderers(blender: str, scene: scenes.FogScene) -> list[Renderer]:
-    settings = {"max_bounces": scene.bounces, "filter_width_px": 3.0}  # Blender's Filter Size of 1.5
+    settings = {"max_bounces": scene.bounces} | FILTERS["BLACKMAN_HARRIS"]["pivot"]
     return [
         Renderer("pivot", "pivot", blender, WORKER, settings),
         Renderer("pivot MIS", "pivot", blender, WORKER, settings | {"light_sampling": "MIS"}),
@@ -94,20 +97,15 @@ def main() -> None:
         scene = scenes.SCENES[name]
         ours = pivot_renderers(arguments.blender[0], scene) if with_pivot else []
         theirs = cycles_renderers(blenders, scene)
-        for first in (ours[:1], theirs[:1]):
-            for renderer in first:
-                gallery.make(renderer, name, arguments.samples, range(0), again=not arguments.only)
         renderers[name] = ours + theirs
-        if arguments.seeds == 0:
-            continue
-        found = indirect.measure(gallery, renderers[name], name, arguments)
+        found = measure(gallery, renderers[name], name, arguments)
         rows += found
         if found:
-            indirect.write_sheet(gallery, renderers[name], found, "cycles", OUTPUT, (scenes.WIDTH, scenes.HEIGHT))
+            indirect_table.write_sheet(gallery, renderers[name], found, "cycles", OUTPUT, (scenes.WIDTH, scenes.HEIGHT))
     if not rows:
         return
     table.write_csv(OUTPUT / "fog.csv", rows)
-    indirect.print_ratios(gallery, renderers, rows, "cycles")
+    indirect_table.print_ratios(gallery, renderers, rows, "cycles")
     if with_pivot:
         print_joint(rows)
 

@@ -18,27 +18,26 @@ from __future__ import annotations
 import argparse
 import functools
 import hashlib
-import math
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 
 import indirect_plain as plain
 import indirect_scenes as scenes
 import monte_carlo_table as table
-import numpy as np
-from monte_carlo_pictures import Gallery, Renderer, find_blenders, find_mitsuba, has_pivot
+from indirect_table import print_ratios, write_sheet
+from monte_carlo_filters import FILTERS
+from monte_carlo_find import find_blenders, find_mitsuba, has_pivot
+from monte_carlo_measure import measure
+from monte_carlo_pictures import Gallery, Renderer
 
 OUTPUT = Path(__file__).resolve().parents[2] / "build" / "indirect"
 WORKER = "indirect_blender.py"
 BOUNCES = 4
-PIVOT = {"max_bounces": BOUNCES, "filter_width_px": 3.0}  # Blender's Filter Size of 1.5: see addon/settings.py
+PIVOT = {"max_bounces": BOUNCES} | FILTERS["BLACKMAN_HARRIS"]["pivot"]
 CYCLES = {f"{kind}_bounces": BOUNCES for kind in ("max", "diffuse", "glossy")}
 # Mitsuba hides lamps and the world from the camera together.
-PLAIN_PIVOT = {"max_bounces": BOUNCES, "pixel_filter": "BOX", "filter_width_px": 1.0, "transparent_film": True}
+PLAIN_PIVOT = {"max_bounces": BOUNCES} | FILTERS["BOX"]["pivot"] | {"transparent_film": True}
 PLAIN_MITSUBA = {"max_bounces": BOUNCES}
-MEASURED = 2  # of Cycles' variants
-MEAN_TOLERANCE = 0.01
 
 
 def find_renderers(blenders: list[str], guiding: tuple[bool, ...]) -> list[Renderer]:
@@ -72,99 +71,6 @@ def scene_key(scene: str) -> str:
     else:
         described += repr((PIVOT, CYCLES)).encode()
     return hashlib.sha256(described).hexdigest()[:8]
-
-
-def measure(gallery: Gallery, renderers: list[Renderer], scene: str, arguments: argparse.Namespace) -> list[table.Row]:
-    """A row of each renderer, of Cycles the best, with all seeds. One without pictures is left out."""
-
-    def rows(wanted: list[Renderer], seeds: range) -> list[tuple[Renderer, table.Row]]:
-        found = []
-        for renderer in wanted:
-            again = not arguments.only or renderer.label in arguments.only
-            if gallery.make(renderer, scene, arguments.samples, seeds, again):
-                every = range(seeds.stop)  # those before were made before
-                found.append((renderer, gallery.measure(renderer, scene, arguments.samples, every)))
-                table.print_row(found[-1][1])
-        return found
-
-    others = rows([renderer for renderer in renderers if renderer.name != "cycles"], range(arguments.seeds))
-    tried = rows([renderer for renderer in renderers if renderer.name == "cycles"], range(1))
-    tried.sort(key=lambda pair: -pair[1]["efficiency"])
-    best = tried[:MEASURED]
-    if arguments.seeds > 1:
-        best = rows([renderer for renderer, _ in best], range(1, arguments.seeds))
-    return [row for _, row in others + best]
-
-
-def print_ratios(
-    gallery: Gallery, renderers_of: Mapping[str, list[Renderer]], rows: list[table.Row], peer: str
-) -> None:
-    """Each scene's line, then the geometric mean and the least of the efficiency's ratio over the best of a peer.
-
-    renderers_of: by scene.
-    """
-    compared = {}
-    for scene, found in table.by_scene(rows).items():
-        best = table.best(found, peer)
-        if "pivot" in found and best:
-            compared[scene] = found["pivot"], best[peer]
-    if not compared:
-        return
-    name = peer.capitalize()
-    wide = 1 + max(map(len, ("geometric mean", *compared)))
-    label = 1 + max(len(theirs["renderer"]) for _, theirs in compared.values())
-    for line in (
-        f"\n{'':{wide}}{'times':>7} {'without':>8}  {'':{label}}{'CPU s a sample':>15} {'relMSE':>17}"
-        f" {'of references':>17} {'means':>7}",
-        f"{'scene':{wide}}{name:>7} {'worst 1%':>8}  {f'best {name}':{label}}{f'Pivot {name:>7}':>15}"
-        f" {f'Pivot  {name:>7}':>17} {f'Pivot  {name:>7}':>17} {f'P / {name[0]}':>7}",
-    ):
-        print(line)
-    ratios = []
-    for scene, (ours, theirs) in compared.items():
-        ratios.append(ours["efficiency"] / theirs["efficiency"])
-        cost = theirs["CPU s"] / ours["CPU s"]
-        trimmed = cost * theirs["relMSE without the worst"] / ours["relMSE without the worst"]
-        each = [f"{ours[name]:8.2e} {theirs[name]:8.2e}" for name in ("relMSE", "relMSE of the reference")]
-        per_sample = f"{ours['CPU s'] / ours['samples']:7.3f} {theirs['CPU s'] / theirs['samples']:7.3f}"
-        print(
-            f"{scene:{wide}}{ratios[-1]:7.2f} {trimmed:8.2f}  {theirs['renderer']:{label}}{per_sample} {each[0]}"
-            f" {each[1]} {means(gallery, renderers_of[scene], scene, peer)}"
-        )
-    print(f"{'geometric mean':{wide}}{np.exp(np.mean(np.log(ratios))):7.2f}\n{'least':{wide}}{min(ratios):7.2f}")
-
-
-def means(gallery: Gallery, renderers: list[Renderer], scene: str, peer: str) -> str:
-    """Pivot's mean over the peer's, of the references, and its standard error."""
-    owners = [next(renderer for renderer in renderers if renderer.name == name) for name in ("pivot", peer)]
-    (ours, our_variance), (theirs, their_variance) = (gallery.reference(owner, scene) for owner in owners)
-    ratio = ours.mean() / theirs.mean()
-    relative = [v.mean() / v.size / i.mean() ** 2 for i, v in ((ours, our_variance), (theirs, their_variance))]
-    flag = "" if abs(ratio - 1) <= MEAN_TOLERANCE else "  THE MEANS DIFFER"
-    return f"{ratio:7.4f} +- {math.sqrt(sum(relative)):.4f}{flag}"
-
-
-def write_sheet(
-    gallery: Gallery,
-    renderers: list[Renderer],
-    rows: list[table.Row],
-    peer: str,
-    folder: Path,
-    size_px: tuple[int, int],
-) -> None:
-    """What both made of one scene with the samples measured, and their references: a PNG in the folder."""
-    ((scene, found),) = table.by_scene(rows).items()
-    shown = [found[name] for name in ("pivot",) if name in found] + list(table.best(found, peer).values())
-    images = {}
-    for row in shown:
-        renderer = next(renderer for renderer in renderers if renderer.label == row["renderer"])
-        picture = gallery.load((scene, renderer.label, row["samples"], 0))[0]
-        images[renderer.label] = {
-            f"{row['samples']} samples": picture,
-            "reference": gallery.reference(renderer, scene)[0],
-        }
-    lines = list(dict.fromkeys(line for column in images.values() for line in column))
-    table.write_picture(folder / f"{scene}.png", lines, images, size_px)
 
 
 def main() -> None:

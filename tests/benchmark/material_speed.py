@@ -22,17 +22,19 @@ import indirect
 import monte_carlo_scenes as scenes
 import monte_carlo_table as table
 import numpy as np
-from monte_carlo_pictures import FOLDER, find_blenders, has_pivot
+from monte_carlo_filters import DIRECT_LIGHT, FILTERS
+from monte_carlo_find import find_blenders, has_pivot
+from monte_carlo_pictures import FOLDER
 from numpy.typing import NDArray
 from pivot.chart.pixels import write_png
 
 OUTPUT = FOLDER.parents[1] / "build" / "material_speed"
 MATERIALS = ("constants", "images", "procedural")
 LIGHT: dict[str, dict[str, dict[str, Any]]] = {
-    "direct": scenes.DIRECT_LIGHT,
+    "direct": {name: FILTERS["BOX"][name] | DIRECT_LIGHT for name in ("pivot", "cycles")},
     "bounces": {
-        "pivot": scenes.DIRECT_LIGHT["pivot"] | {"max_bounces": indirect.BOUNCES},
-        "cycles": scenes.DIRECT_LIGHT["cycles"] | indirect.CYCLES,
+        "pivot": FILTERS["BOX"]["pivot"] | {"max_bounces": indirect.BOUNCES},
+        "cycles": FILTERS["BOX"]["cycles"] | indirect.CYCLES,
     },
 }
 SIDE_PX = 2048

@@ -1,4 +1,4 @@
-"""Inside Blender as a module: build a scene of monte_carlo_scenes.py and render it with Cycles or Pivot.
+"""Inside Blender as a module: a scene of monte_carlo_scenes.py, or the default one, by Cycles or Pivot.
 
 monte_carlo_blender.py < JOBS: does the jobs (see monte_carlo_worker.py).
 """
@@ -6,12 +6,14 @@ monte_carlo_blender.py < JOBS: does the jobs (see monte_carlo_worker.py).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import bpy
 
 # isort: split
+import indirect_scenes
 import mathutils
 import monte_carlo_renderers as renderers
 import monte_carlo_scenes as scenes
@@ -88,5 +90,6 @@ def _light(light: scenes.LightSource) -> bpy.types.Object:
 
 
 if __name__ == "__main__":
-    builders = {name: partial(build, scene) for name, scene in scenes.SCENES.items()}
+    builders: dict[str, Callable[[], None]] = {name: partial(build, scene) for name, scene in scenes.SCENES.items()}
+    builders["default"] = indirect_scenes.SCENES["default"]
     worker.main({"cycles": renderers.Cycles, "pivot": renderers.Pivot}, builders)

@@ -36,45 +36,16 @@ class Renderer:
     worker: str
     settings: dict[str, Any]
 
+    @property
+    def adaptive(self) -> bool:
+        return bool(self.settings.get("adaptive") or self.settings.get("use_adaptive_sampling"))
+
     def counts(self, samples: int) -> tuple[int, int]:
         """The sample counts whose cost is compared; adaptive sampling has a ceiling and no second count."""
-        return (0, 4 * samples) if "adaptive" in self.settings else (samples // 4, samples)
+        return (0, 4 * samples) if self.adaptive else (samples // 4, samples)
 
     def pictures(self, scene: str, samples: int, seeds: Iterable[int]) -> list[Picture]:
         return [(scene, self.label, count, s) for count in self.counts(samples) if count for s in seeds]
-
-
-def probe(python: str, code: str) -> str | None:
-    """What a Python prints for the code, or None where it fails."""
-    done = subprocess.run([python, "-c", code], capture_output=True, text=True)
-    return done.stdout.strip().splitlines()[-1] if done.returncode == 0 and done.stdout.strip() else None
-
-
-def find_blenders(pythons: Iterable[str]) -> dict[str, str]:
-    """Blender's version, as 4.5, of each Python that has bpy, by the Python; says which have none."""
-    found = {}
-    for python in pythons:
-        version = probe(python, "import bpy; print('.'.join(map(str, bpy.app.version[:2])))")
-        if version is None:
-            print(f"skipped: Cycles of {python}, which has no bpy")
-        else:
-            found[python] = version
-    return found
-
-
-def find_mitsuba(python: str) -> str | None:
-    """Its version; says where there is none."""
-    version = probe(python, "import mitsuba; print(mitsuba.__version__)")
-    if version is None:
-        print(f"skipped: Mitsuba, which {python} cannot import")
-    return version
-
-
-def has_pivot(python: str) -> bool:
-    found = probe(python, "import pivot_core; print(1)") is not None
-    if not found:
-        print(f"skipped: Pivot, which {python} cannot import")
-    return found
 
 
 @dataclass(frozen=True)
@@ -140,6 +111,7 @@ class Gallery:
         cpu_s = [np.median([cpu for _, cpu in images]) if images else 0.0 for images in (few, many)]
         cost_s = float(cpu_s[1] - cpu_s[0]) / (1 - low / samples)
         error = float(np.mean(errors))
+        trimmed = float(np.mean([without_worst(e) for e in by_pixel]))
         return {
             "scene": scene,
             "renderer": renderer.label,
@@ -148,10 +120,11 @@ class Gallery:
             "relMSE of seeds": " ".join(f"{e:.3g}" for e in errors),
             "relMSE of the reference": noise,
             # With the reference's noise: how much of it lies in the pixels kept is not known.
-            "relMSE without the worst": float(np.mean([without_worst(e) for e in by_pixel])),
+            "relMSE without the worst": trimmed,
             "CPU s": cost_s,
             "Msamples per CPU s": samples * mean.shape[0] * mean.shape[1] / cost_s / 1e6,
             "efficiency": 1 / (error * cost_s),
+            "efficiency without the worst": 1 / (trimmed * cost_s),
             "mean": float(mean.mean()),
         }
 

@@ -28,6 +28,7 @@ import indirect_scenes
 import monte_carlo_blender
 import monte_carlo_renderers as renderers
 import monte_carlo_scenes
+from monte_carlo_filters import DIRECT_LIGHT, FILTERS
 
 LIBRARY = Path(__file__).resolve().parents[2] / "build" / "monte_carlo" / "ray_log.so"
 SAMPLES = 16
@@ -37,7 +38,7 @@ REPEATS = 3
 def scenes() -> dict[str, tuple[Callable[[], None], dict[str, Any]]]:
     """What builds each, and Pivot's settings."""
     direct = {
-        name: (partial(monte_carlo_blender.build, scene), monte_carlo_scenes.DIRECT_LIGHT["pivot"])
+        name: (partial(monte_carlo_blender.build, scene), DIRECT_LIGHT | FILTERS["BLACKMAN_HARRIS"]["pivot"])
         for name, scene in monte_carlo_scenes.SCENES.items()
     }
     return direct | {name: (build, indirect.PIVOT) for name, build in indirect_scenes.SCENES.items()}

@@ -13,10 +13,6 @@ from numpy.typing import NDArray
 
 Triple = tuple[float, float, float]
 WIDTH, HEIGHT = 640, 360
-DIRECT_LIGHT = {  # and a box filter, in each renderer's words
-    "pivot": {"max_bounces": 0, "pixel_filter": "BOX", "filter_width_px": 1.0},
-    "cycles": {"max_bounces": 0, "pixel_filter_type": "BOX"},
-}
 
 
 @dataclass(frozen=True)

@@ -29,9 +29,10 @@ def by_scene(rows: list[Row]) -> dict[str, dict[str, Row]]:
     return found
 
 
-def best(found: dict[str, Row], name: str) -> dict[str, Row]:
-    """The most efficient of the renderers whose label starts so; empty if there is none."""
-    rows = [row for label, row in found.items() if label.startswith(name)]
+def best(found: dict[str, Row], name: str, adaptive: bool = True) -> dict[str, Row]:
+    """The most efficient of the renderers whose label starts so, with or without those adaptive; empty if there is
+    none."""
+    rows = [row for label, row in found.items() if label.startswith(name) and (adaptive or "adaptive" not in label)]
     return {name: max(rows, key=lambda row: row["efficiency"])} if rows else {}
 
 
@@ -49,20 +50,27 @@ def write_csv(file: Path, rows: list[Row]) -> None:
 
 def print_table(rows: list[Row]) -> None:
     """Each renderer's figures, and by how much Pivot is more efficient."""
-    print(f"\n{'scene':20} {'renderer':22} {'relMSE':>9} {'CPU s':>8} {'Ms/s':>6} {'pivot x':>8} {'mean':>8}")
+    print(
+        f"\n{'scene':20} {'renderer':28} {'relMSE':>9} {'worst 1% out':>12}"
+        f" {'CPU s':>8} {'Ms/s':>6} {'pivot x':>8} {'mean':>8}"
+    )
     for scene, found in by_scene(rows).items():
         for label, row in found.items():
             ratio = found["pivot"]["efficiency"] / row["efficiency"] if "pivot" in found else float("nan")
-            figures = f"{row['relMSE']:9.2e} {row['CPU s']:8.2f} {row['Msamples per CPU s']:6.2f}"
-            print(f"{scene:20} {label:22} {figures} {ratio:8.2f} {row['mean']:8.5f}")
+            errors = f"{row['relMSE']:9.2e} {row['relMSE without the worst']:12.2e}"
+            costs = f"{row['CPU s']:8.2f} {row['Msamples per CPU s']:6.2f}"
+            print(f"{scene:20} {label:28} {errors} {costs} {ratio:8.2f} {row['mean']:8.5f}")
 
 
 def print_ratios(rows: list[Row]) -> None:
-    """By scene and as geometric means: Pivot's efficiency over the others', and joint sampling's over MIS."""
+    """By scene and as geometric means: Pivot's efficiency over the others', and joint sampling's over MIS.
+
+    Adaptive, Pivot's is over the best that the others have, adaptive or not.
+    """
 
     def over(own: str, other: str, figure: str) -> Callable[[dict[str, Row]], float | None]:
         def ratio(found: dict[str, Row]) -> float | None:
-            others = best(found, other)
+            others = best(found, other, adaptive="adaptive" in own)
             if own not in found or not others:
                 return None
             ours, theirs = found[own][figure], others[other][figure]
@@ -71,10 +79,12 @@ def print_ratios(rows: list[Row]) -> None:
         return ratio
 
     columns = {
-        "over best Cycles": over("pivot", "cycles", "efficiency"),
-        "adaptive": over("pivot adaptive", "cycles", "efficiency"),
+        "over Cycles": over("pivot", "cycles", "efficiency"),
+        "worst 1% out": over("pivot", "cycles", "efficiency without the worst"),
+        "adaptive over Cycles": over("pivot adaptive", "cycles", "efficiency"),
+        "adaptive, worst 1% out": over("pivot adaptive", "cycles", "efficiency without the worst"),
         "over Mitsuba": over("pivot", "mitsuba", "efficiency"),
-        "adaptive ": over("pivot adaptive", "mitsuba", "efficiency"),
+        "adaptive over Mitsuba": over("pivot adaptive", "mitsuba", "efficiency"),
         "joint over MIS, samples": over("pivot", "pivot MIS", "relMSE"),
         "CPU": over("pivot", "pivot MIS", "efficiency"),
     }

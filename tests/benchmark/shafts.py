@@ -16,7 +16,8 @@ import fog
 import fog_scenes
 import monte_carlo_table as table
 import shafts_scene as scene
-from monte_carlo_pictures import Gallery, Renderer, find_blenders
+from monte_carlo_find import find_blenders
+from monte_carlo_pictures import Gallery, Renderer
 
 HERE = Path(__file__).resolve().parent
 BUILDERS = (HERE / "shafts_scene.py", *fog.BUILDERS)
