@@ -83,7 +83,9 @@ void register_render(py::module_& module) {
              "Whether the render has ended within the given time; raises what failed in it.")
         .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")
         .def_property_readonly("progress", &Session::progress, "0..1")
-        .def_property_readonly("samples_done", &Session::samples_done, "Samples complete over the whole window.")
+        .def_property_readonly("samples_done", &Session::samples_done,
+                               "Samples complete over the whole window; under adaptive sampling, of those pixels that "
+                               "take as many.")
         .def_property_readonly("pixel_samples", &Session::pixel_samples,
                                "Samples so far, of all pixels and of those around the window whose samples reach it.")
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })

@@ -12,7 +12,7 @@
 namespace pivot {
 namespace {
 
-constexpr int tile_size = 32;
+constexpr int least_tile_size = 32;
 /// Passes grow from one sample, so that the first picture is early, to this many, so that tiles are worth their
 /// overhead.
 constexpr std::uint32_t max_samples_per_pass = 8, max_samples_per_sparse_pass = 64;
@@ -21,12 +21,13 @@ constexpr std::uint32_t places_when_adaptive = 16;
 constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
 
 /// The squares from which samples reach a window's pixels, in tiles. Tiles of one colour, four in all, are a tile
-/// apart: their samples reach different pixels.
+/// apart, and as wide as two reaches: their samples reach different pixels.
 std::array<std::vector<Tile>, 4> make_tiles(const Window& window, int reach_px) {
     std::array<std::vector<Tile>, 4> tiles;
+    const int tile_size = std::max(least_tile_size, 2 * reach_px);
     const Tile all{-reach_px, -reach_px, window.width() + reach_px, window.height() + reach_px};
     // By place in the frame, so that a window's pixels get what those of the whole get, in the same order.
-    const auto before = [](int frame) { return frame - ((frame % tile_size) + tile_size) % tile_size; };
+    const auto before = [&](int frame) { return frame - ((frame % tile_size) + tile_size) % tile_size; };
     const int x_first = before(window.x0 + all.x0), y_first = before(window.y0 + all.y0);
     for (int y = y_first; y < window.y0 + all.y1; y += tile_size) {
         for (int x = x_first; x < window.x0 + all.x1; x += tile_size) {
@@ -37,6 +38,23 @@ std::array<std::vector<Tile>, 4> make_tiles(const Window& window, int reach_px) 
         }
     }
     return tiles;
+}
+
+/// Variance of a sample as means over n of them have it, times n^(3/2): that is how fast the error of evenly spread
+/// samples falls at edges. By pairs where there are two, as what varies smoothly is nearly the same in all. Nothing of
+/// a single sample.
+std::optional<float> radiance_variance(std::span<const Sample> samples) {
+    const std::size_t together = samples.size() >= 4 ? 2 : 1, count = samples.size() / together;
+    if (count < 2) return std::nullopt;
+    const auto radiance_of = [&](std::size_t i) {
+        Rgb sum(0.0f);
+        for (std::size_t k = 0; k < together; ++k) sum += samples[i * together + k].radiance;
+        return mean_component(sum) / static_cast<float>(together);
+    };
+    float mean = 0.0f, squares = 0.0f;
+    for (std::size_t i = 0; i < count; ++i) mean += radiance_of(i) / static_cast<float>(count);
+    for (std::size_t i = 0; i < count; ++i) squares += sqr(radiance_of(i) - mean);
+    return squares / static_cast<float>(count - 1) * std::pow(static_cast<float>(together), 1.5f);
 }
 
 bool is_finite(const Sample& s) {
@@ -117,15 +135,15 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    if (settings_.adaptive)
+    if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else
-        render_round({.film = film_, .seed = settings_.seed}, settings_.samples);
+        render_round({.film = film_, .seed = settings_.seed, .sees_centers = true}, settings_.samples);
 }
 
 void Session::render_adaptively() {
     const bool analytic = settings_.integrator == Integrator::analytic;
-    const std::uint32_t half = half_pilot_samples(settings_.samples), whole = 2 * half;
+    const std::uint32_t whole = even_samples(settings_), half = whole / 2;
     Film other_film(film_.width(), film_.height());
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
@@ -136,11 +154,16 @@ void Session::render_adaptively() {
         pilot[number].resize(squares_.size());
         Round round = round_of(number, number == 0 ? film_ : other_film);
         round.pilot = pilot[number];
-        if (!render_round(round, half)) return;
+        round.sees_centers = number == 0;
+        if (!render_round(round, half)) {
+            if (number == 1) film_.add(other_film);
+            return;
+        }
     }
     const float error = 0.01f * settings_.error_budget_percent;
-    const float half_error = film_.squared_error_beside(other_film, least_radiance);
-    const auto [further, half_weight] = sample_counts(pilot, squares_, half_error, error, settings_.samples);
+    const float half_error = film_.squared_error_beside(other_film);
+    const auto [further, half_weight] =
+        sample_counts(pilot, squares_, filter_.reach_px(), half_error, error, whole, settings_.samples);
     // What a pixel weighs in all is how many samples it has.
     std::array<std::vector<float>, 2> weights;
     std::vector<float> weight_left;
@@ -160,7 +183,7 @@ void Session::render_adaptively() {
 }
 
 /// Successive samples, where they lie in each pixel, and what they weigh for each of those around it, row by row.
-struct Session::Pass {
+struct Session::SamplePass {
     struct Places {
         std::vector<Vec2f> offsets;
         std::vector<std::vector<float>> weights;
@@ -169,8 +192,8 @@ struct Session::Pass {
     std::uint32_t first_sample, last_sample;
     std::vector<Places> places;  ///< squares take one or another
 
-    Pass(std::uint32_t first, std::uint32_t last, std::uint32_t first_index, const PixelFilter& filter,
-         std::uint32_t seed, std::uint32_t place_count)
+    SamplePass(std::uint32_t first, std::uint32_t last, std::uint32_t first_index, const PixelFilter& filter,
+               std::uint32_t seed, std::uint32_t place_count)
         : first_sample(first), last_sample(last) {
         const auto across = static_cast<std::size_t>(2 * filter.reach_px() + 1);
         for (std::uint32_t k = 0; k < place_count; ++k) {
@@ -186,8 +209,9 @@ struct Session::Pass {
         }
     }
 
-    const Places& places_of(std::size_t square) const {
-        return places[hash(static_cast<std::uint32_t>(square), 0u) % places.size()];
+    /// By place in the frame.
+    const Places& places_of(int frame_x, int frame_y) const {
+        return places[hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y)) % places.size()];
     }
 };
 
@@ -198,8 +222,8 @@ bool Session::render_round(const Round& round, std::uint32_t samples) {
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
         const std::uint32_t count = std::min({std::max(done, 1u), most, samples - done});
-        const Pass pass(done, done + count, round.first_index, filter_, seed,
-                        settings_.adaptive ? places_when_adaptive : 1u);
+        const SamplePass pass(done, done + count, round.first_index, filter_, seed,
+                              round.pilot.empty() && round.counts.empty() ? 1u : places_when_adaptive);
         for (const std::vector<Tile>& of_one_colour : tiles)
             tbb::parallel_for_each(of_one_colour, [&](const Tile& tile) { render_tile(round, pass, tile); });
         if (should_stop()) return false;
@@ -209,15 +233,16 @@ bool Session::render_round(const Round& round, std::uint32_t samples) {
     return true;
 }
 
-std::size_t Session::count_of(const Round& round, const Pass& pass, std::size_t square) {
+std::size_t Session::count_of(const Round& round, const SamplePass& pass, std::size_t square) {
     const std::uint32_t last =
         round.counts.empty() ? pass.last_sample : std::min(pass.last_sample, round.counts[square]);
     return last > pass.first_sample ? last - pass.first_sample : 0;
 }
 
-void Session::render_tile(const Round& round, const Pass& pass, const Tile& tile) {
+void Session::render_tile(const Round& round, const SamplePass& pass, const Tile& tile) {
     const bool analytic = settings_.integrator == Integrator::analytic;
     const int reach = filter_.reach_px();
+    const bool sees_centers = pass.first_sample == 0 && round.sees_centers;
     const auto is_wanted = [&] {
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
@@ -227,34 +252,31 @@ void Session::render_tile(const Round& round, const Pass& pass, const Tile& tile
     if (!is_wanted()) return;
     const Tile reached{std::max(tile.x0 - reach, 0), std::max(tile.y0 - reach, 0),
                        std::min(tile.x1 + reach, film_.width()), std::min(tile.y1 + reach, film_.height())};
+    const Window& window = scene_->camera().window;
     const PixelGrid grid{reached.x1 - reached.x0, reached.y1 - reached.y0};
     std::vector<Pixel> pixels;
     round.film.load(reached, pixels);
-    std::vector<float> squared_radiances;
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
         const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y);
         if (row.empty()) continue;
         samples_added += row.size();
-        squared_radiances.clear();
-        for (const Sample& sample : row)
-            squared_radiances.push_back(analytic ? sqr(mean_component(sample.radiance)) : 0.0f);
         std::size_t first = 0;
         for (int x = tile.x0; x < tile.x1; ++x) {
             const bool is_seen = x >= 0 && x < film_.width() && y >= 0 && y < film_.height();
-            if (pass.first_sample == 0 && is_seen) see_center(pixels[grid.index(x - reached.x0, y - reached.y0)], x, y);
+            if (sees_centers && is_seen) see_center(pixels[grid.index(x - reached.x0, y - reached.y0)], x, y);
             const std::size_t square = squares_.index(x + reach, y + reach), count = count_of(round, pass, square);
             const std::span<const Sample> samples = std::span(row).subspan(first, count);
-            const auto squares = std::span<const float>(squared_radiances).subspan(first, count);
+            const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
-            auto weights = pass.places_of(square).weights.begin();
+            auto weights = pass.places_of(window.x0 + x, window.y0 + y).weights.begin();
             for (int v = y - reach; v <= y + reach; ++v) {
                 for (int u = x - reach; u <= x + reach; ++u, ++weights) {
                     if (u < reached.x0 || u >= reached.x1 || v < reached.y0 || v >= reached.y1) continue;
                     const float of_round = round.weights.empty() ? 1.0f : round.weights[film_.grid().index(u, v)];
-                    pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, squares,
+                    pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, variance,
                                                                                    scale * of_round);
                 }
             }
@@ -282,7 +304,7 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const Sampler>
     }
 }
 
-std::vector<Sample> Session::sample_row(const Round& round, const Pass& pass, int x0, int x1, int y) {
+std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     std::vector<Ray> rays;
@@ -290,11 +312,12 @@ std::vector<Sample> Session::sample_row(const Round& round, const Pass& pass, in
     for (int x = x0; x < x1; ++x) {
         const int frame_x = camera.window.x0 + x;
         const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
-        // By place in the frame, so that a window shows the pixels of the whole.
+        // By place in the frame, so that a window shows the pixels of the whole; but those that choose among lights do
+        // so together with their neighbours, of which a window has others.
         const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
         const std::size_t square = squares_.index(x + reach, y + reach);
         const std::size_t count = count_of(round, pass, square);
-        const std::vector<Vec2f>& offsets = pass.places_of(square).offsets;
+        const std::vector<Vec2f>& offsets = pass.places_of(frame_x, frame_y).offsets;
         for (std::size_t k = 0; k < count; ++k) {
             rays.push_back(camera.ray(center + offsets[k]));
             samplers.emplace_back(hash(place, round.seed),

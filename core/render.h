@@ -49,25 +49,26 @@ class Session {
     /// samples reach these.
     struct Round {
         Film& film;
-        std::uint32_t seed;                       ///< of the sequence; analytic pictures have one for all
+        std::uint32_t seed;  ///< of the sequence; analytic pictures have one for all
+        bool sees_centers = false;
         std::uint32_t first_index = 0;            ///< in the sequence
         std::span<Pilot> pilot{};                 ///< of each square, to be told of its samples; empty: nobody asks
         std::span<const std::uint32_t> counts{};  ///< of each square; empty: all get as many
         std::span<const float> weights{};         ///< of the round in each pixel; empty: that of its samples
     };
-    struct Pass;
+    struct SamplePass;
 
     void run();
     void render_adaptively();
     /// So many samples of each square, or of its count as many. False when it was stopped.
     bool render_round(const Round& round, std::uint32_t samples);
-    void render_tile(const Round& round, const Pass& pass, const Tile& tile);
+    void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
-    std::vector<Sample> sample_row(const Round& round, const Pass& pass, int x0, int x1, int y);
+    std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y);
     /// Analytic samples of one index go together in a batch: what is known by it they share.
     void shade_by_index(std::span<const Ray> rays, std::span<const Sampler> samplers, std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
-    static std::size_t count_of(const Round& round, const Pass& pass, std::size_t square);
+    static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
     void see_center(Pixel& pixel, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;

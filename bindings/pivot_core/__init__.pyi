@@ -711,7 +711,7 @@ class Session:
     @property
     def samples_done(self) -> int:
         """
-        Samples complete over the whole window.
+        Samples complete over the whole window; under adaptive sampling, of those pixels that take as many.
         """
     @property
     def width(self) -> int: ...

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["filter_samples", "half_pilot_samples", "sample_counts"]
+__all__: list[str] = ["filter_samples", "sample_counts"]
 
 def filter_samples(
     pixel_filter: str,
@@ -18,13 +18,9 @@ def filter_samples(
     For random numbers u (n, 2) in [0, 1): offsets (n, 2) from the pixel's centre, in pixels; weights (n, 2, k) along x and y for the k pixels around and including it.
     """
 
-def half_pilot_samples(max_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
-    """
-    How many samples each half of the pilot gives every pixel when at most max_samples are allowed.
-    """
-
 def sample_counts(
     samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    reach_px: typing.SupportsInt | typing.SupportsIndex,
     half_error: typing.SupportsFloat | typing.SupportsIndex,
     relative_error: typing.SupportsFloat | typing.SupportsIndex,
     max_samples: typing.SupportsInt | typing.SupportsIndex,

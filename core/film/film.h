@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
 #include <span>
 #include <string>
@@ -27,6 +28,9 @@ struct Sample {
     float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared
 };
 
+/// Errors of noise are relative to a pixel's radiance, or to this where it is darker.
+inline constexpr float least_radiance_of_error = 0.1f;
+
 /// What the ray through the pixel's centre meets; never averaged.
 struct CenterSample {
     float depth_m = 1e10f;  ///< along the camera's axis; 1e10 where there is nothing, as Cycles writes it
@@ -38,10 +42,12 @@ struct WeightedSum {
     Sample sum{.alpha = 0.0f};
     float weight = 0.0f;
     float squared_weight = 0.0f;
-    float squared_radiance = 0.0f;  ///< analytic: of the samples' mean over colours, each times its weight
+    float told_weight = 0.0f;  ///< analytic: squared, of samples that tell how far others in their square differ
+    float variance = 0.0f;     ///< analytic: of the radiance in their squares, times told_weight
 
-    /// Adds samples by their weights, all of it times `scale`. squared_radiances: of each sample.
-    void add(std::span<const Sample> samples, std::span<const float> weights, std::span<const float> squared_radiances,
+    /// Adds samples of one square by their weights, all of it times `scale`. radiance_variance: of these samples, if
+    /// known.
+    void add(std::span<const Sample> samples, std::span<const float> weights, std::optional<float> radiance_variance,
              float scale);
     void add(const WeightedSum& other, float scale);
 
@@ -93,9 +99,10 @@ class Film {
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
-    /// The mean squared error of one of two films that were made alike, relative to the pixels' radiance, or to
-    /// least_radiance where it is darker.
-    float squared_error_beside(const Film& other, float least_radiance) const;
+    /// The mean squared error of one of two films that were made alike, relative to the pixels' radiance.
+    float squared_error_beside(const Film& other) const;
+    /// Adds the other's samples.
+    void add(const Film& other);
 
     /// A pass as height x width x channels, bottom row first.
     std::vector<float> read(const Pass& pass) const;

@@ -1,8 +1,8 @@
 // The pixel filter. A sample in one pixel is also worth something to the pixels around whose filters reach it: samples
 // are drawn from the sum of all pixels' filters, and each pixel weighs them by its own filter's share of that sum. This
 // is the balance heuristic [Veach97] over pixels: unbiased, and of Blender's default filter it leaves 0.45 of the noise
-// of samples that serve their own pixel alone. All pixels take samples at the same places, so that the weights of each
-// sum to its number of samples: what is even stays even. Blackman-Harris, or the box.
+// of samples that serve their own pixel alone. Where all pixels take samples at the same places, the weights
+// of each sum to its number of samples: what is even stays even. Blackman-Harris, or the box.
 //
 // [Harris78]  On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform
 // [Veach97]   Robust Monte Carlo Methods for Light Transport Simulation

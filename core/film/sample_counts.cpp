@@ -42,7 +42,7 @@ std::vector<float> relative_variances(std::span<const Pilot> pilot, const PixelG
     others = means_around(others, grid, 1);
     std::vector<float> variances = means_around(own, grid, 1);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        const float scale = 1.0f / sqr(std::max(radiance[i], least_radiance));
+        const float scale = 1.0f / sqr(std::max(radiance[i], least_radiance_of_error));
         surprise[i] = scale * std::max(own[i] - foreseen * others[i], 0.0f);
         variances[i] *= scale;
     }
@@ -77,8 +77,8 @@ struct Allotment {
 /// The least that makes the error.
 Allotment allot(std::span<const float> variances, float relative_error, float least, float most) {
     Allotment allotment{sqr(relative_error), least, most};
-    float low = 1e-3f, high = 1e6f;
-    for (int step = 0; step < 40; ++step) {
+    float low = 1e-3f, high = 1e12f;
+    for (int step = 0; step < 60; ++step) {
         allotment.per_deviation = std::sqrt(low * high);
         (allotment.error_of(variances) <= allotment.wanted ? high : low) = allotment.per_deviation;
     }
@@ -88,7 +88,8 @@ Allotment allot(std::span<const float> variances, float relative_error, float le
 }  // namespace
 
 void Pilot::add(float radiance) {
-    block_ += radiance / samples_per_block;
+    constexpr float most = 1e12f;  // whose square is a number
+    block_ += std::clamp(radiance, -most, most) / samples_per_block;
     if (++samples_ % samples_per_block != 0) return;
     sum_ += block_;
     sum_of_squares_ += sqr(block_);
@@ -103,15 +104,10 @@ float Pilot::variance_of(float sum, float sum_of_squares, std::uint32_t blocks) 
     return samples_per_block * std::max(sum_of_squares - sum * sum / n, 0.0f) / (n - 1.0f);
 }
 
-std::uint32_t half_pilot_samples(std::uint32_t max_samples) {
-    constexpr std::uint32_t least = 8, most = 16;
-    return std::min(std::clamp(max_samples / 128, least, most), (max_samples + 1) / 2);
-}
-
-SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float half_error,
-                           float relative_error, std::uint32_t max_samples) {
-    const auto least = static_cast<float>(2 * half_pilot_samples(max_samples));
-    const float most = std::max(static_cast<float>(max_samples), least);
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, int reach_px,
+                           float half_error, float relative_error, std::uint32_t pilot_samples,
+                           std::uint32_t max_samples) {
+    const auto least = static_cast<float>(pilot_samples), most = static_cast<float>(max_samples);
     std::array<std::vector<float>, 2> halves{relative_variances(pilot[0], grid), relative_variances(pilot[1], grid)};
     std::vector<float> variances;
     for (std::size_t i = 0; i < grid.size(); ++i) variances.push_back(0.5f * (halves[0][i] + halves[1][i]));
@@ -135,8 +131,8 @@ SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const
     counts.further = further;
     for (int y = 0; y < grid.height; ++y)
         for (int x = 0; x < grid.width; ++x)
-            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, grid.height - 1); ++v)
-                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, grid.width - 1); ++u)
+            for (int v = std::max(y - reach_px, 0); v <= std::min(y + reach_px, grid.height - 1); ++v)
+                for (int u = std::max(x - reach_px, 0); u <= std::min(x + reach_px, grid.width - 1); ++u)
                     counts.further[grid.index(x, y)] =
                         std::max(counts.further[grid.index(x, y)], (further[grid.index(u, v)] + 3) / 4);
     return counts;

@@ -2,7 +2,8 @@
 // error of the whole picture most: a pixel's are in proportion to its standard deviation, relative to its radiance.
 //
 // The pilot has two halves that know nothing of each other. How much one half's samples weigh beside those that follow
-// is decided by the other half's spread, so that no sample decides its own weight, and the picture stays unbiased.
+// is decided by the other half's spread, so that no sample decides its own weight, and the picture stays unbiased: but
+// for two numbers that are the whole picture's, in which a pixel of many has little say.
 #pragma once
 
 #include <array>
@@ -35,24 +36,19 @@ class Pilot {
     std::uint32_t samples_ = 0, blocks_ = 0;
 };
 
-/// Samples of half a pilot when at most max_samples are allowed.
-std::uint32_t half_pilot_samples(std::uint32_t max_samples);
-
 /// For each pixel.
 struct SampleCounts {
     std::vector<std::uint32_t> further;             ///< samples that are to follow the pilot's
     std::array<std::vector<float>, 2> half_weight;  ///< of each half of the pilot in the picture; what is left: theirs
 };
 
-/// Pixels' errors are relative to their radiance, or to this where they are darker.
-inline constexpr float least_radiance = 0.1f;
-
 /// So that the mean squared error over all pixels is relative_error^2, and none has four times that error, with at most
 /// max_samples a pixel. half_error: the mean squared error of a picture of half a pilot, which tells what the filter
 /// and even spreading leave of the samples' variance. A pixel has no fewer than a quarter of the samples of those
 /// beside it, which its own serve too; and what only one block of a pixel met, and none beside it, may be met anywhere
 /// near.
-SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, float half_error,
-                           float relative_error, std::uint32_t max_samples);
+SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, int reach_px,
+                           float half_error, float relative_error, std::uint32_t pilot_samples,
+                           std::uint32_t max_samples);
 
 }  // namespace pivot

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/integrators/arrival.h"
-#include "core/integrators/light_choice.h"
 #include "core/integrators/light_lanes.h"
 #include "core/integrators/settings.h"
 #include "core/integrators/vertex_lights.h"

@@ -25,7 +25,7 @@ enum class PointSet : std::uint32_t {
 class FixedPoints {
    public:
     FixedPoints(const RenderSettings& settings, std::uint32_t sample_index)
-        : FixedPoints(100.0f / settings.error_budget_percent, settings.even_samples(), sample_index) {}
+        : FixedPoints(100.0f / settings.error_budget_percent, even_samples(settings), sample_index) {}
 
     std::uint32_t count() const { return at_least_one(pixel_count_ / static_cast<float>(samples_)); }
 

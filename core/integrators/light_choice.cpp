@@ -5,6 +5,9 @@
 
 namespace pivot {
 namespace {
+
+/// Whether weights of this sum tell anything.
+bool can_choose(float total) { return total > tiny<float> && total <= std::numeric_limits<float>::max(); }
 constexpr float below_one = 1.0f - 0x1p-24f;
 
 /// A weight among others of this total: none that is above 0 is so small that a sum of floats loses it.
@@ -81,7 +84,7 @@ template <class Cumulative, class Visit>
 void LightChoice::distribute(std::size_t count, const Cumulative& cumulative, std::span<Pick> picks,
                              const Visit& visit) {
     const float total = cumulative(count - 1);
-    if (!(total > tiny<float>)) {
+    if (!can_choose(total)) {
         for (Pick& pick : picks) pick.probability = 0.0f;
         return;
     }
@@ -132,7 +135,7 @@ float LightChoice::probability(std::size_t lane, std::size_t light) const {
     // A node's part of its cumulative weights, as distribute() takes it.
     const auto part = [](std::size_t i, std::size_t count, const auto& cumulative) {
         const float total = cumulative(count - 1), weight = cumulative(i) - (i > 0 ? cumulative(i - 1) : 0.0f);
-        return total > tiny<float> ? weight / total : 0.0f;
+        return can_choose(total) ? weight / total : 0.0f;
     };
     float probability = 1.0f;
     std::int32_t child = ~static_cast<std::int32_t>(light);

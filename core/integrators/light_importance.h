@@ -42,9 +42,11 @@ namespace detail {
 /// Of a Gaussian of directions, its mean's cosine z and variance (of either angle): the mean of its clamped cosine,
 /// about.
 inline Batch mean_cosine(const Batch& z, const Batch& variance) {
-    const Batch one(1.0f), spread = Batch(2.0f / pi<float>) * variance;
-    const Batch c = z * inverse(one + variance);
-    return Batch(0.5f) * (c + sqrt(c * c + spread * inverse(one + Batch(4.0f) * spread)));
+    const Batch one(1.0f), zero(0.0f), spread = Batch(2.0f / pi<float>) * max(variance, Batch(1e-12f));
+    const Batch c = z * inverse(one + variance), tail = spread * inverse(one + Batch(4.0f) * spread);
+    const Batch root = sqrt(c * c + tail);
+    // Below the horizon the difference would be lost to rounding.
+    return Batch(0.5f) * select(c < zero, tail * inverse(root - min(c, zero)), c + root);
 }
 
 /// GGX's reflection density towards wi, its normals widened by what light of that variance spreads half vectors: by 1/2

@@ -1,10 +1,10 @@
 // What the artist sets.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/film/pixel_filter.h"
-#include "core/film/sample_counts.h"
 
 namespace pivot {
 
@@ -25,7 +25,7 @@ struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
     std::uint32_t samples = 64;
-    bool adaptive = false;  ///< Monte Carlo: samples go where they help the picture most, until it meets the budget
+    bool adaptive = false;  ///< samples go where they help the picture most, until it meets the error budget
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;      ///< 0: direct light only
     float clamp_indirect = 0.0f;        ///< the mean over colours that light which bounced adds at once; 0: no bound
@@ -38,9 +38,12 @@ struct RenderSettings {
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
-
-    /// What every pixel has at least.
-    std::uint32_t even_samples() const { return adaptive ? 2 * half_pilot_samples(samples) : samples; }
 };
+
+/// What every pixel has at least: all, or the pilot of adaptive sampling, which needs more to be worth it.
+inline std::uint32_t even_samples(const RenderSettings& settings) {
+    const std::uint32_t pilot = std::clamp(settings.samples / 64, 16u, 32u) / 2 * 2;
+    return settings.adaptive ? std::min(settings.samples, pilot) : settings.samples;
+}
 
 }  // namespace pivot

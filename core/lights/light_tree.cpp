@@ -146,6 +146,8 @@ void LightProxies::set(std::size_t child, const LightProxyOf<float>& proxy) {
     for (std::size_t i = 0; i < numbers; ++i) values_[i][child] = of_child[i];
 }
 
+namespace {
+
 /// How far light scatters about its mean place, summed up.
 struct Scatter {
     double weight = 0.0, square = 0.0;
@@ -172,6 +174,8 @@ struct Part {
     std::span<std::uint32_t> lights;
     float scatter;
 };
+
+}  // namespace
 
 /// Builds a tree from the root on.
 class LightTree::Builder {

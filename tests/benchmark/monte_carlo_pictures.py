@@ -35,6 +35,7 @@ class Renderer:
     python: str
     worker: str
     settings: dict[str, Any]
+    ceiling: int = 4  # of adaptive sampling, times the samples of plain sampling
 
     @property
     def adaptive(self) -> bool:
@@ -42,7 +43,7 @@ class Renderer:
 
     def counts(self, samples: int) -> tuple[int, int]:
         """The sample counts whose cost is compared; adaptive sampling has a ceiling and no second count."""
-        return (0, 4 * samples) if self.adaptive else (samples // 4, samples)
+        return (0, self.ceiling * samples) if self.adaptive else (samples // 4, samples)
 
     def pictures(self, scene: str, samples: int, seeds: Iterable[int]) -> list[Picture]:
         return [(scene, self.label, count, s) for count in self.counts(samples) if count for s in seeds]

@@ -250,6 +250,37 @@ def test_error_says_how_far_off_shadows_are(name: str, material: str, samples: i
     assert np.mean(predicted) < (8 if material == "relief" else 4) * np.mean(error) + 0.01
 
 
+@pytest.mark.parametrize("sampling", [{"samples": 16}, {"samples": 256, "adaptive": True}], ids=["even", "adaptive"])
+@pytest.mark.parametrize("material", [*MATERIALS, "relief"])
+@pytest.mark.parametrize("name", ["sphere", "rectangle", "world"])
+def test_error_knows_what_pixels_share(name: str, material: str, sampling: dict) -> None:
+    """Through Blender's default filter, by which samples serve many pixels."""
+    scene = shadowed(name, material)
+    value, predicted = analytic(scene, "Combined", "Error", filter_width_px=3.0, **sampling)
+    exact = converged(scene, filter_width_px=3.0)
+    error = relative(value - exact, exact)
+    held = error <= predicted + 0.005  # the reference's own noise
+    print(f"{name} {material}: error {error.mean():.4f} predicted {predicted.mean():.4f} held {held.mean():.3f}")
+    assert held.mean() > 0.95
+    assert np.mean(predicted) < 8 * np.mean(error) + 0.01  # what varies smoothly over three pixels has no edges
+
+
+def test_adaptive_samples_bring_the_picture_to_its_budget() -> None:
+    """On every run the same; with fewer samples allowed it is what these leave."""
+    scene = shadowed("sphere", "glossy")
+    exact = converged(scene, filter_width_px=3.0)
+
+    def error(samples: int) -> tuple[Floats, float]:
+        settings = {"samples": samples, "adaptive": True, "error_budget_percent": 1.0, "filter_width_px": 3.0}
+        (value,) = analytic(scene, "Combined", **settings)
+        return value, float(np.mean((value - exact) ** 2 / (exact**2 + 0.01)))
+
+    value, best = error(512)
+    np.testing.assert_array_equal(value, error(512)[0])
+    assert best < 0.01**2
+    assert best < error(16)[1]
+
+
 def test_one_number_of_the_budget_tightens_shadows_too() -> None:
     """A tighter budget gives a better picture where light is seen in part."""
     scene = shadowed("sphere", "diffuse")

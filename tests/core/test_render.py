@@ -336,7 +336,30 @@ def test_an_easy_budget_is_met_by_the_pilot() -> None:
     session.start()
     assert session.wait(60.0)
     squares = (session.width + 2) * (session.height + 2)  # with those whose samples reach the picture
-    assert session.pixel_samples == 2 * pivot_core.film.half_pilot_samples(512) * squares
+    assert session.pixel_samples == 16 * squares
+
+
+@pytest.mark.parametrize("samples", [1, 15, 16])
+def test_few_samples_are_even(samples: int) -> None:
+    """What a pilot would take."""
+    pictures = [render(still_life(), samples=samples, adaptive=adaptive) for adaptive in (False, True)]
+    np.testing.assert_array_equal(*pictures)
+
+
+@pytest.mark.parametrize("width_px", [6.0, 40.0])
+def test_a_wide_filter_blurs_as_it_says(width_px: float) -> None:
+    """Also where samples are not even, and for tiles that reach far into each other: an edge of light, blurred."""
+    scene = pivot_core.Scene()
+    lamp = scene.add_material("lamp", pivot_core.Material(emission=(1, 1, 1)))
+    scene.add_instances("half", add_plane(scene, 50.0), place(50.0), [lamp])
+    set_camera(scene, (0, 0, 10), size=(96, 96), half_width=0.5)
+    edge = 0.5 + np.clip((np.arange(96) + 0.5 - 48) / width_px, -0.5, 0.5)
+    settings = {"max_bounces": 0, "pixel_filter": "BOX", "filter_width_px": width_px}
+    for sampling in ({"samples": 16, "threads": 4}, {"samples": 256, "adaptive": True, "error_budget_percent": 0.5}):
+        picture = render(scene, **settings, **sampling)[..., 0]
+        np.testing.assert_allclose(picture, np.tile(edge, (96, 1)), atol=0.02)
+    even = {"samples": 4, **settings}
+    np.testing.assert_array_equal(render(scene, threads=1, **even), render(scene, threads=4, **even))
 
 
 def lamps_in_a_grid(count: int) -> pivot_core.Scene:

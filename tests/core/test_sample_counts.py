@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pivot_core.film import half_pilot_samples, sample_counts
+from pivot_core.film import sample_counts
 
 HALF = 8  # samples of half a pilot
 Counts = tuple[NDArray[np.uint32], NDArray[np.float32]]
@@ -23,12 +23,7 @@ def counts_of(
     count = samples.shape[-1]
     blocks = samples.reshape(*samples.shape[:-1], count // 2, 2).mean(-1)
     variance = 2 * blocks.var(-1, ddof=1) / max(np.median(samples), 0.1) ** 2
-    return sample_counts(samples, kept * variance.mean() / count, relative_error, max_samples)
-
-
-@pytest.mark.parametrize(("most", "half"), [(1, 1), (2, 1), (15, 8), (16, 8), (1000, 8), (1536, 12), (10_000, 16)])
-def test_half_a_pilot_is_a_small_part_of_what_is_allowed(most: int, half: int) -> None:
-    assert half_pilot_samples(most) == half
+    return sample_counts(samples, 1, kept * variance.mean() / count, relative_error, max_samples)
 
 
 def test_counts_make_the_error_of_the_picture() -> None:
@@ -61,7 +56,7 @@ def test_samples_are_in_proportion_to_the_deviation() -> None:
     """Two halves of a picture, one three times as noisy, and what lies between them."""
     samples = np.concatenate([even(12, 12, 1.0, 0.3), even(12, 12, 1.0, 0.1)], 2)
     further, _ = counts_of(samples, 0.04, 10_000)
-    total = further + 2 * half_pilot_samples(10_000)
+    total = further + 2 * HALF
     np.testing.assert_allclose(total[:, :10] / total[:, 14:], 3.0, rtol=0.05)
     error = np.mean(np.where(np.arange(24) < 12, 0.3**2, 0.1**2) * 8 / 3 / total)
     assert 0.25 * 0.04**2 < error < 1.05 * 0.04**2
