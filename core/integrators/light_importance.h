@@ -92,7 +92,7 @@ inline Batch masked_towards(const LightReceiver& r, const Batch& cos_i) {
         const Batch spread = light.is_smooth * light.radius_m * inverse_distance;
         const Batch cosine = select(light.is_two_sided > zero, abs(facing), facing);
         const Batch part = clamp01((cosine + spread - light.cos_edge) * light.inverse_falloff_width);
-        const Batch smooth = max(part * part * (Batch(3.0f) - Batch(2.0f) * part), Batch(0.01f));
+        const Batch smooth = max(falloff_of(part), Batch(0.01f));
         const Batch alone = select(light.is_smooth > zero, smooth, part);
         lit = select(is_alone, alone, together);
     }

@@ -33,7 +33,7 @@ WORKER = "monte_carlo_blender.py"
 DEFAULT = "default"  # of indirect_scenes.py: not among those that are data
 NAMES = [DEFAULT, *scenes.SCENES]
 PIECE_PX = (240, 180)  # of the middle of each image
-PIVOT_CEILING = 32  # it seldom gets there; Cycles, which always does, gains nothing by a higher one
+PIVOT_CEILING = 32  # times the samples of plain sampling; Cycles, whose threshold is met late, has 4
 PIVOT_ADAPTIVE = {"adaptive": True, "error_budget_percent": 1.0}
 CYCLES_ADAPTIVE = {"use_adaptive_sampling": True, "adaptive_threshold": 0.01, "adaptive_min_samples": 0}
 
