@@ -39,7 +39,41 @@ T relative_area(const AreaView<T>& light) {
         select(light.ellipse, T(relative_area(AreaShape::ellipse)), T(relative_area(AreaShape::parallelogram))));
 }
 
-AreaView<float> view_from(const AreaLight& light, const SurfacePoint& point);
+/// An area light as numbers.
+template <class T>
+struct AreaLightOf {
+    Vec3<T> center, half_u, half_v, normal;
+    Vec3<T> radiance;
+    T parallelogram_m2;
+    T is_ellipse, is_triangle;  ///< 0 or 1
+    T surface_error_m;
+};
+
+inline AreaLightOf<float> numbers_of(const AreaLight& light) {
+    return {light.center,
+            light.half_u,
+            light.half_v,
+            light.normal,
+            light.radiance,
+            parallelogram_m2(light),
+            light.shape == AreaShape::ellipse ? 1.0f : 0.0f,
+            light.shape == AreaShape::triangle ? 1.0f : 0.0f,
+            surface_error_m(light)};
+}
+
+template <class T>
+AreaView<T> view_from(const AreaLightOf<T>& light, const SurfacePointOf<T>& point) {
+    AreaView<T> view{.center = point.frame.to_local(light.center - point.position),
+                     .half_u = point.frame.to_local(light.half_u),
+                     .half_v = point.frame.to_local(light.half_v),
+                     .normal = point.frame.to_local(light.normal),
+                     .parallelogram_m2 = light.parallelogram_m2,
+                     .ellipse = light.is_ellipse > T(0),
+                     .triangle = light.is_triangle > T(0)};
+    // A triangle has two sides.
+    view.normal = select(view.triangle && dot(view.center, view.normal) > T(0), -view.normal, view.normal);
+    return view;
+}
 
 /// A place on the light as the lit point sees it.
 template <class T>

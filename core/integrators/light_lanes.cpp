@@ -42,28 +42,6 @@ CapLightOf<float> cap_light(const Light& light) {
     return cap;
 }
 
-template <class T>
-struct AreaLightOf {
-    Vec3<T> center, half_u, half_v, normal;
-    Vec3<T> radiance;
-    T parallelogram_m2;
-    T is_ellipse, is_triangle;  ///< 0 or 1
-    T surface_error_m;
-};
-
-AreaLightOf<float> area_light(const Light& light) {
-    const auto& area = std::get<AreaLight>(light);
-    return {area.center,
-            area.half_u,
-            area.half_v,
-            area.normal,
-            area.radiance,
-            parallelogram_m2(area),
-            area.shape == AreaShape::ellipse ? 1.0f : 0.0f,
-            area.shape == AreaShape::triangle ? 1.0f : 0.0f,
-            surface_error_m(area)};
-}
-
 /// Each lane's light as numbers.
 template <template <class> class Numbers, class NumbersOf>
 Numbers<Batch> pack_lights(const std::array<const Light*, batch_size>& lights, const NumbersOf& numbers_of) {
@@ -120,19 +98,11 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
                                const Vec2b& u, bool lamps_jointly) {
     const SurfacePointOf<Batch>& point = vertices.point;
     const SurfaceOf<Batch>& surface = vertices.surface;
-    const auto light = pack_lights<AreaLightOf>(lights, area_light);
+    const auto light =
+        pack_lights<AreaLightOf>(lights, [](const Light& of_lane) { return numbers_of(std::get<AreaLight>(of_lane)); });
     const Batch zero(0.0f);
-    const BatchMask is_triangle = light.is_triangle > zero;
-    AreaView<Batch> view{.center = point.frame.to_local(light.center - point.position),
-                         .half_u = point.frame.to_local(light.half_u),
-                         .half_v = point.frame.to_local(light.half_v),
-                         .normal = point.frame.to_local(light.normal),
-                         .parallelogram_m2 = light.parallelogram_m2,
-                         .ellipse = light.is_ellipse > zero,
-                         .triangle = is_triangle};
-    const Batch facing = dot(view.center, view.normal);
-    view.normal = select(is_triangle && facing > zero, -view.normal, view.normal);  // a triangle has two sides
-    const BatchMask reached = facing < zero || (is_triangle && facing > zero);
+    const AreaView<Batch> view = view_from(light, point);
+    const BatchMask is_triangle = view.triangle, reached = dot(view.center, view.normal) < zero;
     LaneSamples lit{.sample = {Vec3b(zero), point.frame.z, zero},
                     .valid = BatchMask(true),
                     .pdf_omega = Batch(1.0f),

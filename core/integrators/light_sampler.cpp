@@ -34,7 +34,7 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     const bool has_lobes = surface.has_lobes(), transmits = surface.transmits();
     const auto* area = std::get_if<AreaLight>(&light);
     if (area && strategy == LightSampling::joint && !transmits) {
-        const AreaView<float> view = view_from(*area, point);
+        const AreaView<float> view = view_from(numbers_of(*area), point);
         if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
         else if (!is_even_enough(view))

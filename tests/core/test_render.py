@@ -281,16 +281,6 @@ def test_two_renders_live_in_one_process() -> None:
     np.testing.assert_array_equal(sessions[0].read("Combined"), sessions[1].read("Combined"))
 
 
-def test_box_filter_is_as_wide_as_it_says() -> None:
-    """The edge between black and emission, where a box of two pixels makes a ramp of two pixels."""
-    scene = pivot_core.Scene()
-    lamp = scene.add_material("lamp", pivot_core.Material(emission=(1, 1, 1)))
-    scene.add_instances("half", add_plane(scene, 1.0), place(1.0), [lamp])
-    set_camera(scene, (0, 0, 10), size=(8, 1), half_width=0.08)
-    row = render(scene, samples=4096, max_bounces=0, pixel_filter="BOX", filter_width_px=2.0)[0, :, 0]
-    np.testing.assert_allclose(row, [0, 0, 0, 0.25, 0.75, 1, 1, 1], atol=1e-3)
-
-
 @pytest.mark.parametrize("pixel_filter", [{"pixel_filter": "BOX", "filter_width_px": 1.0}, {"filter_width_px": 3.0}])
 def test_adaptive_sampling_is_unbiased(by_strategy: dict, pixel_filter: dict) -> None:
     """Its mean over seeds is that of the same picture with as many samples in each pixel."""
@@ -344,22 +334,6 @@ def test_few_samples_are_even(samples: int) -> None:
     """What a pilot would take."""
     pictures = [render(still_life(), samples=samples, adaptive=adaptive) for adaptive in (False, True)]
     np.testing.assert_array_equal(*pictures)
-
-
-@pytest.mark.parametrize("width_px", [6.0, 40.0])
-def test_a_wide_filter_blurs_as_it_says(width_px: float) -> None:
-    """Also where samples are not even, and for tiles that reach far into each other: an edge of light, blurred."""
-    scene = pivot_core.Scene()
-    lamp = scene.add_material("lamp", pivot_core.Material(emission=(1, 1, 1)))
-    scene.add_instances("half", add_plane(scene, 50.0), place(50.0), [lamp])
-    set_camera(scene, (0, 0, 10), size=(96, 96), half_width=0.5)
-    edge = 0.5 + np.clip((np.arange(96) + 0.5 - 48) / width_px, -0.5, 0.5)
-    settings = {"max_bounces": 0, "pixel_filter": "BOX", "filter_width_px": width_px}
-    for sampling in ({"samples": 16, "threads": 4}, {"samples": 256, "adaptive": True, "error_budget_percent": 0.5}):
-        picture = render(scene, **settings, **sampling)[..., 0]
-        np.testing.assert_allclose(picture, np.tile(edge, (96, 1)), atol=0.02)
-    even = {"samples": 4, **settings}
-    np.testing.assert_array_equal(render(scene, threads=1, **even), render(scene, threads=4, **even))
 
 
 def lamps_in_a_grid(count: int) -> pivot_core.Scene:
