@@ -61,12 +61,12 @@ struct Allotment {
         const float needed = variance / (worst * wanted), enough = worst * variance / wanted;
         return std::clamp(std::clamp(std::sqrt(variance) * per_deviation, needed, enough), least, most);
     }
-    /// The mean of the pixels' squared errors. What even the most samples leave of a few is not made good for by
-    /// others.
+    /// The mean of the pixels' squared errors. What even the most samples leave of one beyond the error wanted is not
+    /// made good for by others, which would each take the most to no avail.
     float error_of(std::span<const float> variances) const {
         double sum = 0.0;
         for (const float variance : variances)
-            sum += static_cast<double>(std::min(variance / (*this)(variance), worst * wanted));
+            sum += static_cast<double>(variance / (*this)(variance) - std::max(variance / most - wanted, 0.0f));
         return static_cast<float>(sum / static_cast<double>(variances.size()));
     }
 

@@ -323,7 +323,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
             fog.push_back(scatter_analytic(scene, settings, points, media_ray));
         }
     }
-    const float spread = scene.camera().pixel_spread();
+    const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         Sample& sample = samples[i] = {};
         if (hits[i]) {

@@ -36,11 +36,6 @@ struct Work {
     std::span<float> min_pdf_omega;  ///< of each path's BSDF samples so far; empty where nothing is blurred
 };
 
-/// How much of a pixel a sample stands for, along an edge.
-inline float part_of_pixel(const RenderSettings& settings) {
-    return std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(settings.samples)));
-}
-
 /// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
 /// among.
 template <class T>

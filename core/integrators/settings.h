@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/film/pixel_filter.h"
@@ -44,6 +45,11 @@ struct RenderSettings {
 inline std::uint32_t even_samples(const RenderSettings& settings) {
     const std::uint32_t pilot = std::clamp(settings.samples / 64, 16u, 32u) / 2 * 2;
     return settings.adaptive ? std::min(settings.samples, pilot) : settings.samples;
+}
+
+/// How much of a pixel a sample stands for, along an edge.
+inline float part_of_pixel(const RenderSettings& settings) {
+    return std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(settings.samples)));
 }
 
 }  // namespace pivot
