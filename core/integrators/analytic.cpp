@@ -1,13 +1,13 @@
 #include "core/integrators/analytic.h"
 
 #include "core/integrators/analytic_fog.h"
+#include "core/integrators/analytic_world.h"
 #include "core/integrators/area_light_shading.h"
 #include "core/integrators/arrival.h"
 #include "core/integrators/bump_share.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/lobe_points.h"
 #include "core/integrators/specular_occlusion.h"
-#include "core/sampling/warp.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
@@ -68,23 +68,12 @@ const Reflection& reflection_of(const LightShading& shading) {
     return std::visit([](const auto& s) -> const Reflection& { return s.reflection(); }, shading);
 }
 
-Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const FixedPoints& points) {
-    return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points); }, shading);
+Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const ShadowPoints& points,
+                        std::span<const float> totals) {
+    return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points, totals); }, shading);
 }
 
-/// A cone cannot tell which part of a light it leaves: of one seen in part, it may be any.
-float error_of_bent_cone(const Rgb& whole, float seen) { return size_of(whole) * std::min(seen, 1.0f - seen); }
-
-/// The largest part that one light's reflection has of any lane's total.
-float largest_share(const Reflection& reflection, std::span<const float> totals) {
-    float share = 0.0f;
-    for (std::size_t i = 0; i < totals.size(); ++i)
-        if (totals[i] > 0.0f)
-            share = std::max(share, (size_of(reflection.diffuse[i]) + size_of(reflection.glossy[i])) / totals[i]);
-    return share;
-}
-
-constexpr std::uint32_t bump_points_of_light = 16, bump_points_of_world = 64;
+constexpr std::uint32_t bump_points_of_light = 16;
 
 /// What bumps leave of each lane's diffuse half.
 void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
@@ -101,35 +90,73 @@ void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& refl
     }
 }
 
-/// All lights in closed form first: one that gives little of the total needs few rays for its share of the budget.
-void add_lights(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
-                const SurfaceBatch& batch, std::span<Gathered> gathered) {
-    std::vector<LightShading> shadings;
-    shadings.reserve(scene.lamps().size());
-    std::array<float, batch_size> totals{};
-    for (const Light& light : scene.lamps()) {
-        shadings.push_back(shade_light(light, batch, settings));
-        const Reflection& reflection = reflection_of(shadings.back());
-        for (std::size_t i = 0; i < batch.count; ++i)
-            totals[i] += size_of(reflection.diffuse[i]) + size_of(reflection.glossy[i]);
+/// What bent cones leave of each lane's reflection of a light.
+void apply_bent_cones(const Light& light, const SurfaceBatch& batch, Reflection& reflection,
+                      std::span<Gathered> gathered) {
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        const SeenShare seen = seen_share(light, bent_cone, point, surface);
+        gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
+                             error_of_bent_cone(reflection.glossy[i], seen.glossy);
+        reflection.diffuse[i] *= seen.diffuse;
+        reflection.glossy[i] *= seen.glossy;
     }
-    for (std::size_t k = 0; k < shadings.size(); ++k) {
-        Reflection reflection = reflection_of(shadings[k]);
-        const float share = largest_share(reflection, std::span(totals).first(batch.count));
-        if (!(share > 0.0f)) continue;
-        if (settings.occlusion == Occlusion::ray_traced)
-            reflection = seen_by_rays(shadings[k], scene, points.for_share(share));
-        apply_bumps(scene.lamps()[k], batch, reflection);
-        apply_media(scene, scene.lamps()[k], batch, reflection);
+}
+
+/// Light that comes to a batch if nothing is in its way.
+struct Unhidden {
+    std::vector<LightShading> lamps;
+    std::array<WorldReflection, batch_size> world{};
+    Lanes totals{};  ///< of each lane; what is found to be hidden is taken off
+
+    float size(std::size_t lamp, std::size_t lane) const {
+        const Reflection& reflection = reflection_of(lamps[lamp]);
+        return size_of(reflection.diffuse[lane]) + size_of(reflection.glossy[lane]);
+    }
+};
+Unhidden unhidden_light(const Scene& scene, const RenderSettings& settings, const SurfaceBatch& batch) {
+    Unhidden light;
+    light.lamps.reserve(scene.lamps().size());
+    for (const Light& lamp : scene.lamps()) {
+        light.lamps.push_back(shade_light(lamp, batch, settings));
+        for (std::size_t i = 0; i < batch.count; ++i) light.totals[i] += light.size(light.lamps.size() - 1, i);
+    }
+    if (!scene.has_world()) return light;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        light.world[i] = reflect_whole_world(scene, *batch.lanes[i]);
+        light.totals[i] += size_of(light.world[i].diffuse) + size_of(light.world[i].glossy);
+    }
+    return light;
+}
+
+/// The lamps from the one that gives most, so that the others' rays are as many as what is seen of it asks for.
+std::vector<std::size_t> brightest_first(const Unhidden& light, std::size_t lanes) {
+    std::vector<float> shares(light.lamps.size());
+    std::vector<std::size_t> order(shares.size());
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        order[k] = k;
+        for (std::size_t i = 0; i < lanes; ++i)
+            if (light.totals[i] > 0.0f) shares[k] = std::max(shares[k], light.size(k, i) / light.totals[i]);
+    }
+    std::erase_if(order, [&](std::size_t k) { return !(shares[k] > 0.0f); });
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return shares[k]; });
+    return order;
+}
+
+void add_lamps(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
+               const SurfaceBatch& batch, Unhidden& light, std::span<Gathered> gathered) {
+    for (const std::size_t k : brightest_first(light, batch.count)) {
+        const Light& lamp = scene.lamps()[k];
+        Reflection reflection = reflection_of(light.lamps[k]);
+        if (settings.occlusion == Occlusion::ray_traced) {
+            reflection = seen_by_rays(light.lamps[k], scene, points, std::span(light.totals).first(batch.count));
+            for (std::size_t i = 0; i < batch.count; ++i)
+                light.totals[i] -= light.size(k, i) - size_of(reflection.diffuse[i]) - size_of(reflection.glossy[i]);
+        }
+        apply_bumps(lamp, batch, reflection);
+        apply_media(scene, lamp, batch, reflection);
+        if (settings.occlusion == Occlusion::bent_cone) apply_bent_cones(lamp, batch, reflection, gathered);
         for (std::size_t i = 0; i < batch.count; ++i) {
-            if (settings.occlusion == Occlusion::bent_cone) {
-                const auto& [point, surface, bent_cone] = *batch.lanes[i];
-                const SeenShare seen = seen_share(scene.lamps()[k], bent_cone, point, surface);
-                gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
-                                     error_of_bent_cone(reflection.glossy[i], seen.glossy);
-                reflection.diffuse[i] *= seen.diffuse;
-                reflection.glossy[i] *= seen.glossy;
-            }
             gathered[i].add(reflection.diffuse[i], Method::points_1, reflection.diffuse_error[i]);
             gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
             gathered[i].shadow_variance += reflection.shadow_variance[i];
@@ -137,93 +164,24 @@ void add_lights(const Scene& scene, const RenderSettings& settings, const FixedP
     }
 }
 
-/// What each lobe sees of the world, and what media leave of that.
-struct WorldSeen {
-    LaneShares shares;
-    Rgb through_to_diffuse{1.0f}, through_to_glossy{1.0f};
-};
-WorldSeen world_seen_by_rays(const Scene& scene, const FixedPoints& points, const ShadingPoint& shading) {
-    const auto& [point, surface, bent_cone] = shading;
-    struct Probe {
-        VisibleShare LaneShares::*share;
-        float weight;
-        bool is_faced;
-    };
-    std::vector<Ray> rays;
-    std::vector<Probe> probes;
-    const auto add = [&](const Vec3f& wi_local, VisibleShare LaneShares::*share, float weight) {
-        const Vec3f wi = point.frame.to_world(wi_local);
-        rays.push_back({point.ray_origin(wi), wi});
-        probes.push_back({share, weight, point.faces(wi)});
-    };
-    const std::uint32_t count = points.count();
-    for (std::uint32_t k = 0; k < count; ++k) {
-        if (surface.has_diffuse()) {
-            const Vec3f wi_local = sample_cosine_hemisphere(points.point(PointSet::world_diffuse, k, count));
-            const bool turned = surface.bump.is_turned();
-            add(wi_local, &LaneShares::diffuse, turned ? surface.bump.cosine(wi_local) / wi_local.z : 1.0f);
-        }
-        if (!surface.has_glossy()) continue;
-        const float alpha = surface.alpha;
-        const Vec3f wi_local =
-            ggx_sample(surface.wo_local, alpha, alpha, points.point(PointSet::world_glossy, k, count));
-        if (wi_local.z <= 0.0f) continue;
-        add(wi_local, &LaneShares::glossy,
-            size_of(eval_glossy(surface, wi_local)) / ggx_pdf_omega(surface.wo_local, wi_local, alpha, alpha));
-    }
-    std::vector<std::uint8_t> occluded(rays.size());
-    scene.occluded(rays, occluded);
-    WorldSeen seen;
-    for (std::size_t r = 0; r < rays.size(); ++r)
-        (seen.shares.*probes[r].share).add(probes[r].weight, !occluded[r] && probes[r].is_faced);
-    if (scene.media().is_empty()) return seen;
-    MediaRay through_media(scene.media());
-    Rgb diffuse(0.0f), glossy(0.0f);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-        if (occluded[r] || !probes[r].is_faced) continue;
-        through_media.follow(rays[r], nullptr);
-        (probes[r].share == &LaneShares::diffuse ? diffuse : glossy) += probes[r].weight * through_media.through();
-    }
-    if (seen.shares.diffuse.seen > 0.0f) seen.through_to_diffuse = diffuse / seen.shares.diffuse.seen;
-    if (seen.shares.glossy.seen > 0.0f) seen.through_to_glossy = glossy / seen.shares.glossy.seen;
-    return seen;
-}
-
-/// The world's light, which each lobe reflects by its albedo, times the share that each lobe's fixed directions see.
-void add_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
-               const ShadingPoint& shading, Gathered& gathered) {
-    const auto& [point, surface, bent_cone] = shading;
-    constexpr Cap<float> above{Vec3f(0.0f, 0.0f, 1.0f), 1.0f};
-    BumpShare bumped;
-    if (surface.bump.is_turned())
-        bumped = bump_share(surface.bump, above, bump_points_of_world, [](const Vec3f&) { return 1.0f; });
-    Rgb diffuse = scene.world() * surface.diffuse * bumped.value;
-    Rgb glossy = surface.has_glossy() ? scene.world() * glossy_albedo(surface) : Rgb(0.0f);
-    LaneShares shares;
-    float missed = 0.0f;
-    if (settings.occlusion == Occlusion::ray_traced) {
-        const WorldSeen seen = world_seen_by_rays(scene, points, shading);
-        shares = seen.shares;
-        diffuse *= seen.through_to_diffuse;
-        glossy *= seen.through_to_glossy;
-        missed = points.missed_variance();
-    } else if (settings.occlusion == Occlusion::bent_cone) {
-        const SeenShare seen = seen_share_of_world(bent_cone, point, surface);
-        gathered.error += error_of_bent_cone(diffuse, seen.diffuse) + error_of_bent_cone(glossy, seen.glossy);
-        shares = {{seen.diffuse, 1.0f}, {seen.glossy, 1.0f}};
-    }
-    gathered.add(diffuse * shares.diffuse.value(), Method::point_set, bumped.error);
-    gathered.add(glossy * shares.glossy.value(), Method::point_set, error_of_albedo);
-    gathered.shadow_variance += sqr(size_of(diffuse) * sqrt(std::max(shares.diffuse.variance(), missed)) +
-                                    size_of(glossy) * sqrt(std::max(shares.glossy.variance(), missed)));
-}
-
-void shade_batch(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                  std::span<const ShadingPoint> shading, std::span<Gathered> gathered) {
     const SurfaceBatch batch = make_batch(shading);
-    if (batch.has_diffuse || batch.has_glossy) add_lights(scene, settings, points, batch, gathered);
+    if (!batch.has_diffuse && !batch.has_glossy) return;
+    Unhidden light = unhidden_light(scene, settings, batch);
+    add_lamps(scene, settings, points, batch, light, gathered);
     if (!scene.has_world()) return;
-    for (std::size_t i = 0; i < shading.size(); ++i) add_world(scene, settings, points, shading[i], gathered[i]);
+    for (std::size_t i = 0; i < shading.size(); ++i) {
+        WorldReflection world = light.world[i];
+        if (settings.occlusion == Occlusion::ray_traced)
+            world = world_seen_by_rays(world, scene, points, shading[i], light.totals[i]);
+        else if (settings.occlusion == Occlusion::bent_cone)
+            world = world_seen_by_cone(world, shading[i]);
+        gathered[i].add(world.diffuse, Method::point_set, world.bump_error);
+        gathered[i].add(world.glossy, Method::point_set, error_of_albedo);
+        gathered[i].error += world.cone_error;
+        gathered[i].shadow_variance += world.shadow_variance;
+    }
 }
 
 /// The point as it is lit from behind. Nothing but a Lambert lobe is seen by way of it: wo_local stays.
@@ -266,7 +224,7 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
 }
 
 /// Adds what a surface's lobes without closed forms reflect.
-void add_lobe_points(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+void add_lobe_points(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                      const HitSurface& hit, Gathered& gathered) {
     for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
         if constexpr (!L::has_closed_form) {
@@ -310,7 +268,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
     std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the sample of each
-    const FixedPoints points(settings, sample_index);
+    const ShadowPoints points(settings, sample_index);
     std::vector<FogLight> fog;  // of each sample, and what media let through; empty: there are none
     std::vector<Rgb> through;
     if (!scene.media().is_empty()) {

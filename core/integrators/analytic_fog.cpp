@@ -65,30 +65,25 @@ Rgb integrate(LampInFog& lamp, const DistanceMap& map, std::size_t panels) {
 
 /// Which share of the light that comes to the ray is seen there.
 VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp, const MediaRay& ray,
-                        const ScatterTable& table, const FixedPoints& points) {
-    VisibleShare share;
-    const std::uint32_t all = points.count();
-    for (std::uint32_t begin = 0, end = points.first_count(); begin < all && (begin == 0 || share.is_mixed());
-         begin = end, end = all) {
-        std::vector<Ray> rays;
-        std::vector<float> weights;
+                        const ScatterTable& table, const ShadowPoints& points) {
+    LaneShares share;
+    const auto add_points = [&](const PartOfPoints& part, std::span<const bool>, ShadowRays& rays) {
+        const auto [begin, end] = points.range(part);
         for (std::uint32_t k = begin; k < end; ++k) {
-            const Vec2f u = points.point(PointSet::fog_place, k, all);
+            const Vec2f u = points.point(PointSet::fog_place, k);
             const ScatterTable::Place place = table.sample(u.x);
             const Vec3f position = ray.position(place.distance_m);
             const FogLampSampler sampler(light, lamp.typical(), position, ray.ray().direction, LightSampling::joint);
-            const auto point = sampler.sample(points.point(PointSet::fog_lamp, k, all));
+            const auto point = sampler.sample(points.point(PointSet::fog_lamp, k));
             if (!point || !(point->pdf_omega > 0.0f)) continue;
             const Rgb scattered = lamp.typical().scattered(ray.ray().direction, point->wi) * point->radiance;
-            rays.push_back({position, point->wi, 0.0f, point->distance_m * shadow_reach});
             // Beside the table, which has the rest in it.
-            weights.push_back(sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f);
+            const float weight = sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f;
+            rays.add({position, point->wi, 0.0f, point->distance_m * shadow_reach}, true, {&share, weight, 0.0f});
         }
-        std::vector<std::uint8_t> hidden(rays.size());
-        scene.occluded(rays, hidden);
-        for (std::size_t i = 0; i < rays.size(); ++i) share.add(weights[i], !hidden[i]);
-    }
-    return share;
+    };
+    ask_points(scene, points.first_part(), {&share, 1}, add_points);
+    return share.diffuse;
 }
 
 }  // namespace
@@ -134,7 +129,7 @@ void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& bat
     }
 }
 
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                           const MediaRay& ray) {
     FogLight result;
     result.emitted = ray.emitted();

@@ -15,7 +15,7 @@ struct FogLight {
 };
 
 /// ray: followed without a stream of numbers.
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                           const MediaRay& ray);
 
 /// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.

@@ -63,39 +63,34 @@ AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& b
         if (!(facing[i] > 0.0f)) reflection_.diffuse[i] = reflection_.glossy[i] = Rgb(0.0f);
 }
 
-Reflection AreaLightShading::seen_by_rays(const Scene& scene, const FixedPoints& points) const {
-    std::vector<Ray> rays;
-    std::vector<std::size_t> lanes;
-    std::vector<float> cosines, lobes;
-    const std::uint32_t count = points.count();
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const Vec2f u = points.point(PointSet::light_diffuse, k, count);
-        const Vec3f on_light = place_on(light_, u);
-        for (std::size_t i = 0; i < batch_.count; ++i) {
-            const auto& [point, surface, bent_cone] = *batch_.lanes[i];
-            const Vec3f d = on_light - point.position;
-            const float distance_m = length(d);
-            const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
-            if (!(wi_local.z > 0.0f)) continue;
-            const float solid_angle = -dot(wi, light_.normal) / sqr(distance_m);
-            rays.push_back({point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)});
-            lanes.push_back(i);
-            cosines.push_back(solid_angle * wi_local.z);
-            lobes.push_back(surface.has_glossy()
-                                ? solid_angle * ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha)
-                                : 0.0f);
-        }
-    }
-    std::vector<std::uint8_t> occluded(rays.size());
-    scene.occluded(rays, occluded);
+Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints& points,
+                                          std::span<const float> totals) const {
+    std::array<Rgb, batch_size> both;
+    for (std::size_t i = 0; i < batch_size; ++i) both[i] = abs(reflection_.diffuse[i]) + abs(reflection_.glossy[i]);
+    const ShadowPoints of_light = points.for_share(largest_share(both, totals));
     std::array<LaneShares, batch_size> shares{};
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-        LaneShares& share = shares[lanes[r]];
-        const bool is_seen = !occluded[r] && batch_.lanes[lanes[r]]->point.faces(rays[r].direction);
-        share.diffuse.add(cosines[r], is_seen);
-        share.glossy.add(lobes[r], is_seen);
-    }
-    return seen_in_part(reflection_, std::span(shares).first(batch_.count));
+    const auto add_points = [&](const PartOfPoints& part, std::span<const bool> wanted, ShadowRays& rays) {
+        const auto [begin, end] = of_light.range(part);
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const Vec3f on_light = place_on(light_, of_light.point(PointSet::light_diffuse, k));
+            for (std::size_t i = 0; i < batch_.count; ++i) {
+                if (!wanted[i]) continue;
+                const auto& [point, surface, bent_cone] = *batch_.lanes[i];
+                const Vec3f d = on_light - point.position;
+                const float distance_m = length(d);
+                const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
+                if (!(wi_local.z > 0.0f)) continue;
+                const float solid_angle = -dot(wi, light_.normal) / sqr(distance_m);
+                const float lobe =
+                    surface.has_glossy() ? ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha) : 0.0f;
+                rays.add({point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)}, point.faces(wi),
+                         {&shares[i], solid_angle * wi_local.z, solid_angle * lobe});
+            }
+        }
+    };
+    const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
+    ask_points(scene, points.first_part(), lanes, add_points);
+    return seen_in_part(reflection_, lanes, points);
 }
 
 }  // namespace pivot

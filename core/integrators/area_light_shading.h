@@ -13,8 +13,8 @@ class AreaLightShading {
     const Reflection& reflection() const { return reflection_; }
 
     /// The same times the share of the light that each lane sees, by rays to fixed points of it, which each lobe weighs
-    /// by what it reflects of them.
-    Reflection seen_by_rays(const Scene& scene, const FixedPoints& points) const;
+    /// by what it reflects of them. totals: each lane's light from all lights.
+    Reflection seen_by_rays(const Scene& scene, const ShadowPoints& points, std::span<const float> totals) const;
 
    private:
     const AreaLight& light_;

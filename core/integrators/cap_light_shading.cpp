@@ -83,23 +83,6 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
     }
 }
 
-Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> shares) {
-    Reflection seen = whole;
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        // A lobe that gives little has no points of its own, and what it sees may be more or less.
-        const auto& [diffuse, glossy] = shares[i];
-        const VisibleShare& of_diffuse = diffuse.all > 0.0f ? diffuse : glossy;
-        const VisibleShare& of_glossy = glossy.all > 0.0f ? glossy : diffuse;
-        seen.diffuse[i] *= of_diffuse.value();
-        seen.glossy[i] *= of_glossy.value();
-        if (!(diffuse.all > 0.0f)) seen.diffuse_error[i] += 1.0f - of_diffuse.value();
-        if (!(glossy.all > 0.0f)) seen.glossy_error[i] += 1.0f - of_glossy.value();
-        seen.shadow_variance[i] = sqr(mean_component(abs(whole.diffuse[i])) * sqrt(of_diffuse.variance()) +
-                                      mean_component(abs(whole.glossy[i])) * sqrt(of_glossy.variance()));
-    }
-    return seen;
-}
-
 CapLightShading::CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings)
     : light_(light),
       batch_(batch),
@@ -208,7 +191,8 @@ Batch CapLightShading::cosine_in_beam(Batch whole) const {
     return load(sums);
 }
 
-Reflection CapLightShading::seen_by_rays(const Scene& scene, const FixedPoints& points) const {
+Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints& points,
+                                         std::span<const float> totals) const {
     bool wants_diffuse = false, wants_glossy = false;
     for (std::size_t i = 0; i < batch_.count; ++i) {
         const float diffuse = max_component(abs(reflection_.diffuse[i]));
@@ -218,57 +202,44 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const FixedPoints& 
     }
     if (!wants_diffuse && !wants_glossy) return reflection_;
 
-    // A first round finds what is all seen or all hidden; a second spends more where it is mixed.
     std::array<LaneShares, batch_size> shares{};
-    const std::uint32_t all = points.count(), first = points.first_count();
-    trace(scene, points, wants_diffuse, wants_glossy, {0, first, all}, shares);
-    const bool mixed = std::any_of(shares.begin(), shares.end(), [](const LaneShares& s) { return s.is_mixed(); });
-    if (mixed && first < all) trace(scene, points, wants_diffuse, wants_glossy, {first, all, all}, shares);
-    return seen_in_part(reflection_, std::span(shares).first(batch_.count));
-}
-
-void CapLightShading::trace(const Scene& scene, const FixedPoints& points, bool wants_diffuse, bool wants_glossy,
-                            const PointRange& range, std::array<LaneShares, batch_size>& shares) const {
-    struct Probe {
-        VisibleShare* share;
-        float weight;
-        bool is_faced;
-    };
-    std::vector<Ray> rays;
-    std::vector<Probe> probes;
-    const bool is_first = range.begin == 0;
-    std::array<bool, batch_size> takes_part;
-    for (std::size_t i = 0; i < batch_size; ++i) takes_part[i] = i < batch_.count && (is_first || shares[i].is_mixed());
-    const auto add = [&](const Vec3b& wi_local, const Batch& weight, bool glossy) {
-        const Vec3b wi = batch_.frame.to_world(wi_local);
-        const Lanes x = store(wi.x), y = store(wi.y), z = store(wi.z), weights = store(weight);
-        for (std::size_t i = 0; i < batch_.count; ++i) {
-            if (!takes_part[i] || !(weights[i] > 0.0f)) continue;
-            const SurfacePoint& point = batch_.lanes[i]->point;
-            const Vec3f direction(x[i], y[i], z[i]);
-            const float far_m = distance_to_light(light_, point.position, direction) * (1.0f - 1e-5f);
-            rays.push_back({point.ray_origin(direction), direction, 0.0f, far_m});
-            probes.push_back({glossy ? &shares[i].glossy : &shares[i].diffuse, weights[i], point.faces(direction)});
-        }
-    };
     const Frame<Batch> frame = frame_from_z(cap_.axis);
     const GgxAxes<Batch> axes = wants_glossy ? ellipse_axes(exact_->chart) : GgxAxes<Batch>{};
-    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+    const ShadowPoints diffuse_points = points.for_share(largest_share(reflection_.diffuse, totals));
+    const ShadowPoints glossy_points = points.for_share(largest_share(reflection_.glossy, totals));
+    const auto add_points = [&](const PartOfPoints& part, std::span<const bool> wanted, ShadowRays& rays) {
+        const auto add = [&](const Vec3b& wi_local, const Batch& weight, bool glossy) {
+            const Vec3b wi = batch_.frame.to_world(wi_local);
+            const Lanes x = store(wi.x), y = store(wi.y), z = store(wi.z), weights = store(weight);
+            for (std::size_t i = 0; i < batch_.count; ++i) {
+                if (!wanted[i] || !(weights[i] > 0.0f)) continue;
+                const SurfacePoint& point = batch_.lanes[i]->point;
+                const Vec3f direction(x[i], y[i], z[i]);
+                const float far_m = distance_to_light(light_, point.position, direction) * (1.0f - 1e-5f);
+                rays.add({point.ray_origin(direction), direction, 0.0f, far_m}, point.faces(direction),
+                         {&shares[i], glossy ? 0.0f : weights[i], glossy ? weights[i] : 0.0f});
+            }
+        };
         if (wants_diffuse) {
-            const Vec2f xy = sample_disk(points.point(PointSet::light_diffuse, k, range.all));
-            const Vec3b wi = frame.to_world(cap_point(cap_, xy));
-            add(wi, max(wi.z, Batch(0.0f)) * falloff_(wi), false);
+            const auto [begin, end] = diffuse_points.range(part);
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const Vec3b wi =
+                    frame.to_world(cap_point(cap_, sample_disk(diffuse_points.point(PointSet::light_diffuse, k))));
+                add(wi, max(wi.z, Batch(0.0f)) * falloff_(wi), false);
+            }
         }
         if (wants_glossy) {
-            const Vec2f xy = sample_disk(points.point(PointSet::light_glossy, k, range.all));
-            const auto point = lobe_point(*exact_, axes, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
-            add(point.omega_i, point.value * falloff_(point.omega_i), true);
+            const auto [begin, end] = glossy_points.range(part);
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const Vec2f xy = sample_disk(glossy_points.point(PointSet::light_glossy, k));
+                const auto point = lobe_point(*exact_, axes, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
+                add(point.omega_i, point.value * falloff_(point.omega_i), true);
+            }
         }
-    }
-    std::vector<std::uint8_t> occluded(rays.size());
-    scene.occluded(rays, occluded);
-    for (std::size_t r = 0; r < rays.size(); ++r)
-        probes[r].share->add(probes[r].weight, !occluded[r] && probes[r].is_faced);
+    };
+    const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
+    ask_points(scene, points.first_part(), lanes, add_points);
+    return seen_in_part(reflection_, lanes, points);
 }
 
 }  // namespace pivot

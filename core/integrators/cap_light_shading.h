@@ -1,54 +1,14 @@
 // A sphere, spot or sun over a batch of surfaces: closed forms for what the lobes reflect, and visibility apart.
 #pragma once
 
-#include "core/integrators/fixed_points.h"
-#include "core/integrators/surface_batch.h"
-#include "core/scene/scene.h"
+#include "core/integrators/shadow_points.h"
 #include "core/shading/spot_beam.h"
 
 namespace pivot {
 
-/// What each lane reflects of a light towards the viewer, and how far off that may be.
-struct Reflection {
-    std::array<Rgb, batch_size> diffuse, glossy;
-    Lanes diffuse_error, glossy_error;  ///< predicted, relative to each
-    Lanes shadow_variance;              ///< what the rays leave of the share that is seen: radiance squared
-    std::array<Method, batch_size> method;
-};
-
 /// Writes the glossy half of a reflection: the lobe's sums under each lane's Fresnel curve.
 void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, const Rgb& radiance,
                 Reflection& reflection);
-
-/// The share of a light that is seen, so far.
-struct VisibleShare {
-    float seen = 0.0f, all = 0.0f, squares = 0.0f;
-
-    void add(float weight, bool is_seen) {
-        all += weight;
-        squares += weight * weight;
-        if (is_seen) seen += weight;
-    }
-    float value() const { return all > 0.0f ? seen / all : 1.0f; }
-    bool is_mixed() const { return seen > 0.0f && seen < all; }
-    /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
-    float variance() const {
-        if (!is_mixed()) return 0.0f;
-        const float inverse_count = squares / (all * all);
-        return value() * (1.0f - value()) * inverse_count * sqrt(inverse_count);
-    }
-};
-
-/// Of one lane, by each lobe's points.
-struct LaneShares {
-    VisibleShare diffuse, glossy;
-    bool is_mixed() const {
-        return diffuse.is_mixed() || glossy.is_mixed() || (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
-    }
-};
-
-/// What is left of a reflection where each lane's lobes see these shares.
-Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> shares);
 
 /// What a spot's beam leaves of its radiance towards each lane; nothing is lost of other lights.
 struct BeamFalloff {
@@ -71,16 +31,10 @@ class CapLightShading {
     const Reflection& reflection() const { return reflection_; }
 
     /// Multiplies in the share of the light that each lane sees, by rays towards the fixed points. The diffuse lobe's
-    /// points are spread over the light, the glossy lobe's by the lobe.
-    Reflection seen_by_rays(const Scene& scene, const FixedPoints& points) const;
+    /// points are spread over the light, the glossy lobe's by the lobe. totals: each lane's light from all lights.
+    Reflection seen_by_rays(const Scene& scene, const ShadowPoints& points, std::span<const float> totals) const;
 
    private:
-    /// Points begin..end of `all` of each camera sample.
-    struct PointRange {
-        std::uint32_t begin, end, all;
-    };
-    void trace(const Scene& scene, const FixedPoints& points, bool wants_diffuse, bool wants_glossy,
-               const PointRange& range, std::array<LaneShares, batch_size>& shares) const;
     void reflect_glossy(const RenderSettings& settings);
     void reflect_diffuse();
     /// Writes over the lanes of the exact core's integral in which the light crosses the beam's edge.

@@ -41,7 +41,7 @@ void add_points(const Light& light, const LightSampler& sampler, const SurfacePo
                           eval(lobe, wi_local) * place->radiance * (balance(pdf, sampler.pdf_omega(*place)) / pdf)});
 }
 
-Vec3f lobe_numbers(const FixedPoints& points, PointSet set, std::uint32_t k, std::uint32_t count) {
+Vec3f lobe_numbers(const ShadowPoints& points, PointSet set, std::uint32_t k, std::uint32_t count) {
     const Vec2f u = points.point(set, k, count);
     const float turns = (static_cast<float>(k) + 0.5f) * 0.7548777f;  // R2's second ratio: apart from both of u
     return {turns - std::floor(turns), u.x, u.y};
@@ -81,7 +81,7 @@ Seen look(const Scene& scene, const SurfacePoint& point, std::span<const Weighte
 
 }  // namespace
 
-LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                              const Light& light, const SurfacePoint& point, const Surface& lobe) {
     const LightSampler sampler(light, point, lobe, LightSampling::joint);
     const float budget = 0.01f * settings.error_budget_percent;
@@ -115,7 +115,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
     return result;
 }
 
-LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                              const SurfacePoint& point, const Surface& lobe) {
     Rgb albedo = albedo_base(lobe);
     for_each_lobe(lobe, [&](const auto& l, const LobeOf<float>&, bool) { albedo += l.albedo(lobe.wo_local); });
@@ -132,7 +132,7 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
     if (!(seen.share.all > 0.0f)) return {};
     const Rgb light = scene.world() * albedo;
     return {light * seen.through * seen.share.value(), error_of_albedo,
-            sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance())};
+            sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance(seen.share))};
 }
 
 }  // namespace pivot

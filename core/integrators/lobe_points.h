@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/bsdf/surface.h"
-#include "core/integrators/fixed_points.h"
+#include "core/integrators/shadow_points.h"
 #include "core/scene/scene.h"
 
 namespace pivot {
@@ -15,11 +15,11 @@ struct LobeReflection {
 };
 
 /// lobe: a surface of that lobe alone.
-LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                              const Light& light, const SurfacePoint& point, const Surface& lobe);
 
 /// The same of the world, where it is one colour all around.
-LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const FixedPoints& points,
+LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                              const SurfacePoint& point, const Surface& lobe);
 
 }  // namespace pivot

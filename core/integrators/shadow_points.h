@@ -1,0 +1,177 @@
+// The analytic integrator's shadows: what share of a light is seen, by rays towards fixed points of it. The points are
+// the same for every pixel and on every run, so that what they leave out does not flicker.
+//
+// Evenly spread points are off by sqrt(s (1 - s)) n^(-3/4) where an edge hides 1 - s of a light. So for a light that
+// gives some share of a pixel's light, (share sqrt(s (1 - s)) / budget)^(4/3) points keep a penumbra's steps below the
+// error budget. The samples of a pixel take these together, each a part. Few samples ask only some of their points of
+// every light, and go on where these disagree. Samples that have few points each ask all of them: to go on by what so
+// few say, and to believe them where they agree, would shift a penumbra.
+#pragma once
+
+#include <functional>
+
+#include "core/integrators/surface_batch.h"
+#include "core/sampling/sobol.h"
+#include "core/scene/scene.h"
+
+namespace pivot {
+
+/// Which of the fixed sets a point belongs to.
+enum class PointSet : std::uint32_t {
+    light_diffuse = 1,
+    light_glossy = 2,
+    world_diffuse = 3,
+    world_glossy = 4,
+    lobe_light = 5,
+    lobe_direction = 6,
+    lobe_world = 7,
+    fog_place = 8,
+    fog_lamp = 9,
+};
+
+/// The share of a light that is seen, so far.
+struct VisibleShare {
+    float seen = 0.0f, all = 0.0f, squares = 0.0f;
+
+    void add(float weight, bool is_seen) {
+        all += weight;
+        squares += weight * weight;
+        if (is_seen) seen += weight;
+    }
+    float value() const { return all > 0.0f ? seen / all : 1.0f; }
+    bool is_mixed() const { return seen > 0.0f && seen < all; }
+    /// How many points of equal weight say as much.
+    float count() const { return squares > 0.0f ? all * all / squares : 0.0f; }
+    /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
+    float variance() const { return is_mixed() ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f; }
+};
+
+/// Of one lane, by each lobe's points.
+struct LaneShares {
+    VisibleShare diffuse, glossy;
+
+    bool differ() const {
+        return diffuse.all > 0.0f && glossy.all > 0.0f && (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
+    }
+    bool is_mixed() const { return diffuse.is_mixed() || glossy.is_mixed() || differ(); }
+    /// How many of the points for a light that is half hidden are wanted.
+    float wanted_part() const {
+        const auto wanted = [](const VisibleShare& share) {
+            return std::pow(6.0f * share.value() * (1.0f - share.value()), 2.0f / 3.0f);
+        };
+        return differ() ? 1.0f : std::max(wanted(diffuse), wanted(glossy));
+    }
+};
+
+/// Some of a sample's points, from 0 to 1 in their order.
+struct PartOfPoints {
+    float begin, end;
+};
+
+/// The part of the sets that one camera sample takes.
+class ShadowPoints {
+   public:
+    ShadowPoints(const RenderSettings& settings, std::uint32_t sample_index)
+        : ShadowPoints(points_for(100.0f / settings.error_budget_percent), usual_samples(settings), sample_index) {}
+
+    /// For a light that gives this share of all light.
+    ShadowPoints for_share(float share) const {
+        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), samples_, sample_index_};
+    }
+
+    /// No fewer of each sample.
+    ShadowPoints at_least(std::uint32_t count) const {
+        return {std::max(pixel_count_, static_cast<float>(count * samples_)), samples_, sample_index_};
+    }
+
+    std::uint32_t count() const {
+        return std::max(1u, static_cast<std::uint32_t>(std::ceil(pixel_count_ / static_cast<float>(samples_))));
+    }
+
+    struct Range {
+        std::uint32_t begin, end;
+    };
+    Range range(const PartOfPoints& part) const { return {first_after(part.begin), first_after(part.end)}; }
+
+    /// What tells whether a light is seen in full, in part or not at all. To take what they agree on for the whole
+    /// light makes an error of at most one in as many, so that they are a part of the pixel's points, and not of the
+    /// sample's, which many samples make few.
+    float first_part() const { return std::min(static_cast<float>(samples_) / 3.0f, 1.0f); }
+
+    /// Something small in front of a light, half a point's worth, is missed by all points: the variance of the share.
+    float missed_variance(const VisibleShare& share) const {
+        return share.all > 0.0f ? 0.5f / static_cast<float>(samples_) * std::pow(share.count(), -2.5f) : 0.0f;
+    }
+    /// Whether a lamp's edge runs unseen between a pixel's points in more than one place of 20 where it is near, which
+    /// is what errors are predicted for: at most half of these lie between two points.
+    bool may_miss_edge(const LaneShares& shares) const {
+        return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count()) < 10.0f;
+    }
+
+    /// Point k of count().
+    Vec2f point(PointSet set, std::uint32_t k) const { return point(set, k, count()); }
+    /// Point k of `count` points of a set.
+    Vec2f point(PointSet set, std::uint32_t k, std::uint32_t count) const {
+        return Sampler{0u, sample_index_ * count + k}.point(static_cast<std::uint32_t>(set));
+    }
+
+   private:
+    ShadowPoints(float pixel_count, std::uint32_t samples, std::uint32_t sample_index)
+        : pixel_count_(pixel_count), samples_(samples), sample_index_(sample_index) {}
+
+    /// Adaptive sampling gives a penumbra more than the least; how many is not known before.
+    static std::uint32_t usual_samples(const RenderSettings& settings) {
+        const auto least = static_cast<float>(even_samples(settings)), most = static_cast<float>(settings.samples);
+        return static_cast<std::uint32_t>(std::cbrt(least * least * most));
+    }
+    /// Of a light that gives so many times what is budgeted. Where a penumbra hides it, s (1 - s) is 1/6 in the mean.
+    static float points_for(float budgets) { return std::pow(budgets / std::sqrt(6.0f), 4.0f / 3.0f); }
+    std::uint32_t first_after(float part) const {
+        return static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(count())));
+    }
+
+    float pixel_count_;  ///< of all samples together
+    std::uint32_t samples_, sample_index_;
+};
+
+/// The largest part that a light's reflection has of any lane's total.
+float largest_share(std::span<const Rgb> light, std::span<const float> totals);
+
+/// Rays that tell shares of what they see.
+class ShadowRays {
+   public:
+    struct Probe {
+        LaneShares* shares;
+        float diffuse, glossy;  ///< weights
+    };
+    using OnSeen = std::function<void(const Ray&, const Probe&)>;
+
+    void add(const Ray& ray, bool is_faced, const Probe& probe);
+    /// on_seen: is told of the rays that nothing hides; may be empty.
+    void trace(const Scene& scene, const OnSeen& on_seen = {});
+
+   private:
+    std::vector<Ray> rays_;
+    std::vector<Probe> probes_;
+};
+
+/// Adds rays of some of the points of the lanes that want them.
+using AddPoints = std::function<void(const PartOfPoints&, std::span<const bool> wanted, ShadowRays& rays)>;
+
+/// Asks points for the share that each lane sees, until they are enough. first_part: asked in any case.
+/// shares: of at most batch_size lanes.
+void ask_points(const Scene& scene, float first_part, std::span<LaneShares> shares, const AddPoints& add,
+                const ShadowRays::OnSeen& on_seen = {});
+
+/// What each lane reflects of a light towards the viewer, and how far off that may be.
+struct Reflection {
+    std::array<Rgb, batch_size> diffuse, glossy;
+    Lanes diffuse_error, glossy_error;  ///< predicted, relative to each
+    Lanes shadow_variance;              ///< what the rays leave of the share that is seen: radiance squared
+    std::array<Method, batch_size> method;
+};
+
+/// What is left of a reflection where each lane's lobes see these shares.
+Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> shares, const ShadowPoints& points);
+
+}  // namespace pivot
