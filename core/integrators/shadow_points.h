@@ -105,7 +105,7 @@ class ShadowPoints {
     /// Whether a lamp's edge runs unseen between a pixel's points in more than one place of 20 where it is near, which
     /// is what errors are predicted for: at most half of these lie between two points.
     bool may_miss_edge(const LaneShares& shares) const {
-        return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count()) < 10.0f;
+        return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count()) < 20.0f;
     }
 
     /// Point k of count().
