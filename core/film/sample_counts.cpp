@@ -65,8 +65,10 @@ struct Allotment {
     /// made good for by others, which would each take the most to no avail.
     float error_of(std::span<const float> variances) const {
         double sum = 0.0;
-        for (const float variance : variances)
-            sum += static_cast<double>(variance / (*this)(variance) - std::max(variance / most - wanted, 0.0f));
+        for (const float variance : variances) {
+            const float samples = (*this)(variance), left_by_most = std::max(variance / most - wanted, 0.0f);
+            sum += static_cast<double>(variance / samples - left_by_most);
+        }
         return static_cast<float>(sum / static_cast<double>(variances.size()));
     }
 

@@ -43,10 +43,10 @@ struct SampleCounts {
 };
 
 /// So that the mean squared error over all pixels is relative_error^2, and none has four times that error, with at most
-/// max_samples a pixel. half_error: the mean squared error of a picture of half a pilot, which tells what the filter
-/// and even spreading leave of the samples' variance. A pixel has no fewer than a quarter of the samples of those
-/// beside it, which its own serve too; and what only one block of a pixel met, and none beside it, may be met anywhere
-/// near.
+/// max_samples a pixel: others do not make good for what these leave of one. half_error: the mean squared error of a
+/// picture of half a pilot, which tells what the filter and even spreading leave of the samples' variance. A pixel has
+/// no fewer than a quarter of the samples of those beside it, which its own serve too; and what only one block of a
+/// pixel met, and none beside it, may be met anywhere near.
 SampleCounts sample_counts(const std::array<std::vector<Pilot>, 2>& pilot, const PixelGrid& grid, int reach_px,
                            float half_error, float relative_error, std::uint32_t pilot_samples,
                            std::uint32_t max_samples);

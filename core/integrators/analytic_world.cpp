@@ -9,8 +9,6 @@ namespace pivot {
 namespace {
 
 constexpr std::uint32_t bump_points = 64;
-/// A sample's mean over fewer points whose weights differ is shifted.
-constexpr std::uint32_t least_of_unequal = 4;
 /// The world is hidden all around, by more than one edge: errors of this many times one edge's.
 constexpr float edges_in_front = 2.0f;
 
@@ -38,9 +36,10 @@ WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& sc
     if (!(diffuse + glossy > 0.0f)) return whole;
     const float all = std::max(total, diffuse + glossy);  // which rounding may leave less of
     const bool is_bumped = surface.bump.is_turned();
+    const float diffuse_share = edges_in_front * diffuse / all, glossy_share = edges_in_front * glossy / all;
     const ShadowPoints diffuse_points =
-        points.for_share(edges_in_front * diffuse / all).at_least(is_bumped ? least_of_unequal : 1);
-    const ShadowPoints glossy_points = points.for_share(edges_in_front * glossy / all).at_least(least_of_unequal);
+        is_bumped ? points.for_share_of_unequal(diffuse_share) : points.for_share(diffuse_share);
+    const ShadowPoints glossy_points = points.for_share_of_unequal(glossy_share);
     LaneShares shares;
     const auto add_points = [&](const PartOfPoints& part, std::span<const bool>, ShadowRays& rays) {
         const auto add = [&](const Vec3f& wi_local, float of_diffuse, float of_glossy) {

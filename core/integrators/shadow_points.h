@@ -54,7 +54,7 @@ struct LaneShares {
         return diffuse.all > 0.0f && glossy.all > 0.0f && (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
     }
     bool is_mixed() const { return diffuse.is_mixed() || glossy.is_mixed() || differ(); }
-    /// How many of the points for a light that is half hidden are wanted.
+    /// How many of the points are wanted, which are as many as a penumbra wants in the mean.
     float wanted_part() const {
         const auto wanted = [](const VisibleShare& share) {
             return std::pow(6.0f * share.value() * (1.0f - share.value()), 2.0f / 3.0f);
@@ -72,16 +72,20 @@ struct PartOfPoints {
 class ShadowPoints {
    public:
     ShadowPoints(const RenderSettings& settings, std::uint32_t sample_index)
-        : ShadowPoints(points_for(100.0f / settings.error_budget_percent), usual_samples(settings), sample_index) {}
+        : ShadowPoints(points_for(100.0f / settings.error_budget_percent), 0.01f * settings.error_budget_percent,
+                       usual_samples(settings), sample_index) {}
 
     /// For a light that gives this share of all light.
     ShadowPoints for_share(float share) const {
-        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), samples_, sample_index_};
+        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), budget_, samples_, sample_index_};
     }
-
-    /// No fewer of each sample.
-    ShadowPoints at_least(std::uint32_t count) const {
-        return {std::max(pixel_count_, static_cast<float>(count * samples_)), samples_, sample_index_};
+    /// The same for points whose weights differ much: a sample's mean of few is shifted, by up to a quarter of a point
+    /// or so, which other samples do not make good for. Not so of four.
+    ShadowPoints for_share_of_unequal(float share) const {
+        const float least_of_sample = std::min(0.25f * share / budget_, 4.0f);
+        ShadowPoints points = for_share(share);
+        points.pixel_count_ = std::max(points.pixel_count_, least_of_sample * static_cast<float>(samples_));
+        return points;
     }
 
     std::uint32_t count() const {
@@ -102,8 +106,8 @@ class ShadowPoints {
     float missed_variance(const VisibleShare& share) const {
         return share.all > 0.0f ? 0.5f / static_cast<float>(samples_) * std::pow(share.count(), -2.5f) : 0.0f;
     }
-    /// Whether a lamp's edge runs unseen between a pixel's points in more than one place of 20 where it is near, which
-    /// is what errors are predicted for: at most half of these lie between two points.
+    /// Whether an edge that runs near lies between two of a pixel's points in more than one place of 20. Errors are
+    /// predicted for the other 19.
     bool may_miss_edge(const LaneShares& shares) const {
         return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count()) < 20.0f;
     }
@@ -116,13 +120,13 @@ class ShadowPoints {
     }
 
    private:
-    ShadowPoints(float pixel_count, std::uint32_t samples, std::uint32_t sample_index)
-        : pixel_count_(pixel_count), samples_(samples), sample_index_(sample_index) {}
+    ShadowPoints(float pixel_count, float budget, std::uint32_t samples, std::uint32_t sample_index)
+        : pixel_count_(pixel_count), budget_(budget), samples_(samples), sample_index_(sample_index) {}
 
     /// Adaptive sampling gives a penumbra more than the least; how many is not known before.
     static std::uint32_t usual_samples(const RenderSettings& settings) {
         const auto least = static_cast<float>(even_samples(settings)), most = static_cast<float>(settings.samples);
-        return static_cast<std::uint32_t>(std::cbrt(least * least * most));
+        return static_cast<std::uint32_t>(std::lround(std::cbrt(least * least * most)));
     }
     /// Of a light that gives so many times what is budgeted. Where a penumbra hides it, s (1 - s) is 1/6 in the mean.
     static float points_for(float budgets) { return std::pow(budgets / std::sqrt(6.0f), 4.0f / 3.0f); }
@@ -131,6 +135,7 @@ class ShadowPoints {
     }
 
     float pixel_count_;  ///< of all samples together
+    float budget_;       ///< relative
     std::uint32_t samples_, sample_index_;
 };
 
