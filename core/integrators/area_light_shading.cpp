@@ -45,6 +45,13 @@ LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight&
     return integrate(batch.lobe, outline, max(budget_of(settings), Batch(5e-4f)));
 }
 
+/// Point k of a light's rim; a rectangle's corners are among them.
+Vec3f rim_of(const AreaLight& light, std::uint32_t k) {
+    Vec2f xy = rim_point(k);
+    if (light.shape == AreaShape::parallelogram) xy *= 0.99f / std::max(std::abs(xy.x), std::abs(xy.y));
+    return light.center + xy.x * light.half_u + xy.y * light.half_v;
+}
+
 }  // namespace
 
 AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& batch, const RenderSettings& settings)
@@ -70,9 +77,7 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
     const ShadowPoints of_light = points.for_share(largest_share(both, totals));
     std::array<LaneShares, batch_size> shares{};
     const auto add_points = [&](const PartOfPoints& part, std::span<const bool> wanted, ShadowRays& rays) {
-        const auto [begin, end] = of_light.range(part);
-        for (std::uint32_t k = begin; k < end; ++k) {
-            const Vec3f on_light = place_on(light_, of_light.point(PointSet::light_diffuse, k));
+        const auto add = [&](const Vec3f& on_light, bool is_rim) {
             for (std::size_t i = 0; i < batch_.count; ++i) {
                 if (!wanted[i]) continue;
                 const auto& [point, surface, bent_cone] = *batch_.lanes[i];
@@ -81,15 +86,20 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
                 const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
                 if (!(wi_local.z > 0.0f)) continue;
                 const float solid_angle = -dot(wi, light_.normal) / sqr(distance_m);
-                const float lobe =
-                    surface.has_glossy() ? ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha) : 0.0f;
-                rays.add({point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)}, point.faces(wi),
-                         {&shares[i], solid_angle * wi_local.z, solid_angle * lobe});
+                const bool has_lobe = !is_rim && surface.has_glossy();
+                const float lobe = has_lobe ? ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha) : 0.0f;
+                rays.add(
+                    {point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)}, point.faces(wi),
+                    {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe, is_rim ? 1.0f : 0.0f});
             }
-        }
+        };
+        for (std::uint32_t k = 0; part.asks_rim() && k < rim_points; ++k) add(rim_of(light_, k), true);
+        const auto [begin, end] = of_light.range(part);
+        for (std::uint32_t k = begin; k < end; ++k)
+            add(place_on(light_, of_light.point(PointSet::light_diffuse, k)), false);
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, points.first_part(), lanes, add_points);
+    ask_points(scene, of_light.first_part(), lanes, add_points);
     return seen_in_part(reflection_, lanes, points);
 }
 

@@ -208,7 +208,7 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints&
     const ShadowPoints diffuse_points = points.for_share(largest_share(reflection_.diffuse, totals));
     const ShadowPoints glossy_points = points.for_share(largest_share(reflection_.glossy, totals));
     const auto add_points = [&](const PartOfPoints& part, std::span<const bool> wanted, ShadowRays& rays) {
-        const auto add = [&](const Vec3b& wi_local, const Batch& weight, bool glossy) {
+        const auto add = [&](const Vec3b& wi_local, const Batch& weight, VisibleShare LaneShares::*of) {
             const Vec3b wi = batch_.frame.to_world(wi_local);
             const Lanes x = store(wi.x), y = store(wi.y), z = store(wi.z), weights = store(weight);
             for (std::size_t i = 0; i < batch_.count; ++i) {
@@ -217,15 +217,20 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints&
                 const Vec3f direction(x[i], y[i], z[i]);
                 const float far_m = distance_to_light(light_, point.position, direction) * (1.0f - 1e-5f);
                 rays.add({point.ray_origin(direction), direction, 0.0f, far_m}, point.faces(direction),
-                         {&shares[i], glossy ? 0.0f : weights[i], glossy ? weights[i] : 0.0f});
+                         {&shares[i], of == &LaneShares::diffuse ? weights[i] : 0.0f,
+                          of == &LaneShares::glossy ? weights[i] : 0.0f, of == &LaneShares::rim ? weights[i] : 0.0f});
             }
         };
+        for (std::uint32_t k = 0; part.asks_rim() && k < rim_points; ++k) {
+            const Vec3b wi = frame.to_world(cap_point(cap_, rim_point(k)));
+            add(wi, max(wi.z, Batch(0.0f)), &LaneShares::rim);
+        }
         if (wants_diffuse) {
             const auto [begin, end] = diffuse_points.range(part);
             for (std::uint32_t k = begin; k < end; ++k) {
                 const Vec3b wi =
                     frame.to_world(cap_point(cap_, sample_disk(diffuse_points.point(PointSet::light_diffuse, k))));
-                add(wi, max(wi.z, Batch(0.0f)) * falloff_(wi), false);
+                add(wi, max(wi.z, Batch(0.0f)) * falloff_(wi), &LaneShares::diffuse);
             }
         }
         if (wants_glossy) {
@@ -233,12 +238,12 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints&
             for (std::uint32_t k = begin; k < end; ++k) {
                 const Vec2f xy = sample_disk(glossy_points.point(PointSet::light_glossy, k));
                 const auto point = lobe_point(*exact_, axes, {Batch(xy.x), Batch(xy.y)}, Batch(1.0f - dot(xy, xy)));
-                add(point.omega_i, point.value * falloff_(point.omega_i), true);
+                add(point.omega_i, point.value * falloff_(point.omega_i), &LaneShares::glossy);
             }
         }
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, points.first_part(), lanes, add_points);
+    ask_points(scene, std::min(diffuse_points.first_part(), glossy_points.first_part()), lanes, add_points);
     return seen_in_part(reflection_, lanes, points);
 }
 

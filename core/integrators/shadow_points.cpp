@@ -34,19 +34,22 @@ void ShadowRays::add(const Ray& ray, bool is_faced, const Probe& probe) {
         rays_.push_back(ray);
         probes_.push_back(probe);
     } else {
-        probe.shares->diffuse.add(probe.diffuse, false);
-        probe.shares->glossy.add(probe.glossy, false);
+        tell(probe, false);
     }
+}
+
+void ShadowRays::tell(const Probe& probe, bool is_seen) {
+    probe.shares->diffuse.add(probe.diffuse, is_seen);
+    probe.shares->glossy.add(probe.glossy, is_seen);
+    probe.shares->rim.add(probe.rim, is_seen);
 }
 
 void ShadowRays::trace(const Scene& scene, const OnSeen& on_seen) {
     std::vector<std::uint8_t> hidden(rays_.size());
     scene.occluded(rays_, hidden);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        const Probe& probe = probes_[i];
-        probe.shares->diffuse.add(probe.diffuse, !hidden[i]);
-        probe.shares->glossy.add(probe.glossy, !hidden[i]);
-        if (on_seen && !hidden[i]) on_seen(rays_[i], probe);
+        tell(probes_[i], !hidden[i]);
+        if (on_seen && !hidden[i]) on_seen(rays_[i], probes_[i]);
     }
     rays_.clear();
     probes_.clear();
@@ -60,10 +63,7 @@ void ask_points(const Scene& scene, float first_part, std::span<LaneShares> shar
     for (PartOfPoints part{0.0f, first_part};; part = {part.end, std::min(2.0f * part.end, 1.0f)}) {
         add(part, wanted, rays);
         rays.trace(scene, on_seen);
-        // Beside lanes that see it in part, what a lane's points agree on is only likely.
-        const bool is_near_edge = std::ranges::any_of(shares, &LaneShares::is_mixed);
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            wanted[i] &= shares[i].is_mixed() ? shares[i].wanted_part() > part.end : is_near_edge;
+        for (std::size_t i = 0; i < shares.size(); ++i) wanted[i] &= shares[i].wanted_part() > part.end;
         if (part.end >= 1.0f || std::none_of(wanted.begin(), wanted.begin() + shares.size(), std::identity())) return;
     }
 }
@@ -73,7 +73,7 @@ Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> sha
     const bool in_penumbra = is_penumbra(shares);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         // A lobe that gives little has no points of its own, and what it sees may be more or less.
-        const auto& [diffuse, glossy] = shares[i];
+        const VisibleShare &diffuse = shares[i].diffuse, &glossy = shares[i].glossy;
         const VisibleShare& of_diffuse = diffuse.all > 0.0f ? diffuse : glossy;
         const VisibleShare& of_glossy = glossy.all > 0.0f ? glossy : diffuse;
         seen.diffuse[i] *= of_diffuse.value();

@@ -3,9 +3,9 @@
 //
 // Evenly spread points are off by sqrt(s (1 - s)) n^(-3/4) where an edge hides 1 - s of a light. So for a light that
 // gives some share of a pixel's light, (share sqrt(s (1 - s)) / budget)^(4/3) points keep a penumbra's steps below the
-// error budget. The samples of a pixel take these together, each a part. Few samples ask only some of their points of
-// every light, and go on where these disagree. Samples that have few points each ask all of them: to go on by what so
-// few say, and to believe them where they agree, would shift a penumbra.
+// error budget. The samples of a pixel take these together, each a part. A pixel's only sample asks half of its points
+// of every light first, and some on the light's rim, and goes on where these disagree. Samples that have few points each
+// ask all of them: to go on by what so few say, and to believe them where they agree, would shift a penumbra.
 #pragma once
 
 #include <functional>
@@ -46,26 +46,40 @@ struct VisibleShare {
     float variance() const { return is_mixed() ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f; }
 };
 
-/// Of one lane, by each lobe's points.
+/// Of one lane, by each lobe's points, and by a few on the light's rim, which an edge that comes over it crosses first.
 struct LaneShares {
-    VisibleShare diffuse, glossy;
+    VisibleShare diffuse, glossy, rim;
 
-    bool differ() const {
-        return diffuse.all > 0.0f && glossy.all > 0.0f && (diffuse.seen > 0.0f) != (glossy.seen > 0.0f);
+    bool is_mixed() const {
+        bool sees = false, misses = false;
+        for (const VisibleShare& share : {diffuse, glossy, rim}) {
+            sees |= share.seen > 0.0f;
+            misses |= share.seen < share.all;
+        }
+        return sees && misses;
     }
-    bool is_mixed() const { return diffuse.is_mixed() || glossy.is_mixed() || differ(); }
     /// How many of the points are wanted, which are as many as a penumbra wants in the mean.
     float wanted_part() const {
         const auto wanted = [](const VisibleShare& share) {
             return std::pow(6.0f * share.value() * (1.0f - share.value()), 2.0f / 3.0f);
         };
-        return differ() ? 1.0f : std::max(wanted(diffuse), wanted(glossy));
+        const bool by_points = diffuse.is_mixed() || glossy.is_mixed();
+        return by_points ? std::max(wanted(diffuse), wanted(glossy)) : static_cast<float>(is_mixed());
     }
 };
+
+constexpr std::uint32_t rim_points = 8;
+/// Point k of a circle's rim, just within the unit circle.
+inline Vec2f rim_point(std::uint32_t k) {
+    const float angle = 2.0f * pi<float> * static_cast<float>(k) / rim_points;
+    return 0.99f * Vec2f(std::cos(angle), std::sin(angle));
+}
 
 /// Some of a sample's points, from 0 to 1 in their order.
 struct PartOfPoints {
     float begin, end;
+    /// More follow if these and the rim do not agree.
+    bool asks_rim() const { return begin == 0.0f && end < 1.0f; }
 };
 
 /// The part of the sets that one camera sample takes.
@@ -79,10 +93,10 @@ class ShadowPoints {
     ShadowPoints for_share(float share) const {
         return {pixel_count_ * std::pow(share, 4.0f / 3.0f), budget_, samples_, sample_index_};
     }
-    /// The same for points whose weights differ much: a sample's mean of few is shifted, by up to a quarter of a point
+    /// The same for points whose weights differ much: a sample's mean of few is shifted, by up to an eighth of a point
     /// or so, which other samples do not make good for. Not so of four.
     ShadowPoints for_share_of_unequal(float share) const {
-        const float least_of_sample = std::min(0.25f * share / budget_, 4.0f);
+        const float least_of_sample = std::min(0.125f * share / budget_, 4.0f);
         ShadowPoints points = for_share(share);
         points.pixel_count_ = std::max(points.pixel_count_, least_of_sample * static_cast<float>(samples_));
         return points;
@@ -97,10 +111,12 @@ class ShadowPoints {
     };
     Range range(const PartOfPoints& part) const { return {first_after(part.begin), first_after(part.end)}; }
 
-    /// What tells whether a light is seen in full, in part or not at all. To take what they agree on for the whole
-    /// light makes an error of at most one in as many, so that they are a part of the pixel's points, and not of the
-    /// sample's, which many samples make few.
-    float first_part() const { return std::min(static_cast<float>(samples_) / 3.0f, 1.0f); }
+    /// What tells, with the rim, whether a light is seen in full, in part or not at all: a part of the pixel's points,
+    /// and not of the sample's, which many samples make few. All of them where the rim would cost as many as it saves.
+    float first_part() const {
+        const float part = std::min(0.5f * static_cast<float>(samples_), 1.0f);
+        return static_cast<float>(count()) * (1.0f - part) > rim_points ? part : 1.0f;
+    }
 
     /// Something small in front of a light, half a point's worth, is missed by all points: the variance of the share.
     float missed_variance(const VisibleShare& share) const {
@@ -109,7 +125,8 @@ class ShadowPoints {
     /// Whether an edge that runs near lies between two of a pixel's points in more than one place of 20. Errors are
     /// predicted for the other 19.
     bool may_miss_edge(const LaneShares& shares) const {
-        return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count()) < 20.0f;
+        return static_cast<float>(samples_) * (shares.diffuse.count() + shares.glossy.count() + shares.rim.count()) <
+               20.0f;
     }
 
     /// Point k of count().
@@ -148,6 +165,7 @@ class ShadowRays {
     struct Probe {
         LaneShares* shares;
         float diffuse, glossy;  ///< weights
+        float rim = 0.0f;
     };
     using OnSeen = std::function<void(const Ray&, const Probe&)>;
 
@@ -156,6 +174,8 @@ class ShadowRays {
     void trace(const Scene& scene, const OnSeen& on_seen = {});
 
    private:
+    static void tell(const Probe& probe, bool is_seen);
+
     std::vector<Ray> rays_;
     std::vector<Probe> probes_;
 };

@@ -85,7 +85,8 @@ def is_flat(picture: Floats) -> NDArray[np.bool_]:
 @pytest.mark.parametrize("samples", [1, 16])
 @pytest.mark.parametrize("lamp", LAMPS)
 def test_a_thin_blade_is_not_lost(lamp: str, samples: int) -> None:
-    """It hides a twentieth of the lamp: as much as one of the first points stands for."""
+    """It hides a twentieth of the lamp and less, as much as one of the first points stands for. A single sample
+    believes these where they agree, and loses some of it; several lose nothing."""
     scene = floor_under(lamp, blade_m=0.02)
     exact = converged(scene)
     whole = unhidden(scene)
@@ -95,7 +96,7 @@ def test_a_thin_blade_is_not_lost(lamp: str, samples: int) -> None:
     share = lost[shadow].mean() / hidden[shadow].mean()
     print(f"{lamp} {samples}: hides {np.mean((hidden / whole)[shadow]):.3f}, {share:.3f} of it is lost")
     assert shadow.sum() > 200
-    assert abs(share) < 0.1
+    assert abs(share) < (0.2 if samples == 1 else 0.03)
     assert np.sqrt(np.mean((lost / whole)[shadow] ** 2)) < 0.02 * np.sqrt(2)  # the budget, of each of two edges
 
 
