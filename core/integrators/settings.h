@@ -21,6 +21,10 @@ enum class AnalyticMethod { automatic, exact, sptd, ltc };
 /// What the analytic integrator takes for visibility: rays to the lights, the bent cones of the vertices, or nothing.
 enum class Occlusion { ray_traced, bent_cone, none };
 
+/// What the analytic integrator shows of light that comes by way of other surfaces: nothing, or that of virtual
+/// spherical Gaussian lights.
+enum class Indirect { none, virtual_lights };
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -33,8 +37,10 @@ struct RenderSettings {
     float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show; adaptive: what noise may be left
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;
-    float time_limit_s = 0.0f;  ///< 0: none
-    int threads = 0;            ///< 0: all cores
+    Indirect indirect = Indirect::none;
+    std::uint32_t virtual_lights = 1024;  ///< about so many cells of light of either kind
+    float time_limit_s = 0.0f;            ///< 0: none
+    int threads = 0;                      ///< 0: all cores
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
