@@ -118,9 +118,9 @@ class PivotSettings(bpy.types.PropertyGroup):
     virtual_lights: IntProperty(
         name="Virtual Lights",
         description="About how many places send light on: the more, the less blurred it is near where it comes from",
-        default=1024,
+        default=4096,
         min=1,
-        soft_max=16384,
+        soft_max=65536,
         max=1 << 20,
     )
     time_limit: FloatProperty(

@@ -664,7 +664,7 @@ class RenderSettings:
         clamp_indirect: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         filter_glossy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         indirect: str = "NONE",
-        virtual_lights: typing.SupportsInt | typing.SupportsIndex = 1024,
+        virtual_lights: typing.SupportsInt | typing.SupportsIndex = 4096,
     ) -> None: ...
 
 class Session:

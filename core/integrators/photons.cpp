@@ -14,7 +14,7 @@
 namespace pivot {
 namespace {
 
-constexpr std::uint32_t photons_per_light = 32;  ///< of the virtual lights asked for
+constexpr std::uint32_t photons_per_light = 64;  ///< of the virtual lights asked for
 constexpr std::uint32_t directions_per_reflection = 4;
 constexpr std::uint32_t photon_seed = 0x70686f74;
 
@@ -148,14 +148,14 @@ class CellSpace {
             dot(world_from_object.linear[0], cross(world_from_object.linear[1], world_from_object.linear[2]))));
         axis_from_world_ = glm::transpose(world_from_object.linear);
     }
-    LightDeposit deposit(std::uint32_t id, std::uint32_t owner, const Vec3f& position, const Vec3f& axis,
+    LightDeposit deposit(std::uint32_t id, std::uint32_t owner, const LightPlace& place, const Vec3f& axis,
                          const Rgb& power_w) const {
-        return {position,
+        return {place,
                 axis,
                 power_w,
                 id,
                 owner,
-                object_from_world_.point(position) * scale_,
+                object_from_world_.point(place.position) * scale_,
                 normalize(axis_from_world_ * axis)};
     }
 
@@ -170,9 +170,10 @@ class CellSpace {
 void deposit_base(const Base& base, const SurfacePoint& point, const Photon& photon, std::uint32_t owner,
                   const CellSpace& cells, std::uint32_t bounce, Deposits& deposits) {
     const Vec3f& normal = point.frame.z;
+    const LightPlace place{point.position, point.normal_geometric};
     const std::uint32_t id = hash(hash(photon.sampler.pixel_seed, photon.sampler.sample), bounce);
     if (const Rgb power = base.diffuse * photon.power_w; base.has_diffuse() && carries_light(power))
-        deposits.diffuse.push_back(cells.deposit(id, owner, point.position, normal, power));
+        deposits.diffuse.push_back(cells.deposit(id, owner, place, normal, power));
     if (!base.has_glossy()) return;
     for (std::uint32_t k = 0; k < directions_per_reflection; ++k) {
         const std::uint32_t dimension = bounce_first + bounce * dimensions_per_bounce + 2;
@@ -184,7 +185,7 @@ void deposit_base(const Base& base, const SurfacePoint& point, const Photon& pho
         const float pdf = ggx_pdf_omega(base.wo_local, wi_local, base.alpha, base.alpha);
         const Rgb share = eval_glossy(base, wi_local) / (pdf * static_cast<float>(directions_per_reflection));
         if (const Rgb power = share * photon.power_w; pdf > 0.0f && carries_light(power))
-            deposits.glossy.push_back(cells.deposit(hash(id, k), owner, point.position, wi, power));
+            deposits.glossy.push_back(cells.deposit(hash(id, k), owner, place, wi, power));
     }
 }
 

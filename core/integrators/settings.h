@@ -38,7 +38,7 @@ struct RenderSettings {
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;
     Indirect indirect = Indirect::none;
-    std::uint32_t virtual_lights = 1024;  ///< about so many cells of light of either kind
+    std::uint32_t virtual_lights = 4096;  ///< about so many cells of light of either kind
     float time_limit_s = 0.0f;            ///< 0: none
     int threads = 0;                      ///< 0: all cores
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;

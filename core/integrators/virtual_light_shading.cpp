@@ -7,11 +7,11 @@ namespace pivot {
 namespace {
 
 /// Lights are seen as one where the variance of the directions that they come from is below this, in rad^2.
-constexpr float largest_variance = 0.02f;
+constexpr float largest_variance = 0.005f;
 /// Or below this part of a lobe's own, and of the squared angle between it and them.
-constexpr float part_of_lobe = 0.5f, part_of_distance = 0.1f;
-/// What a point's light is, at least, of all its light, for what it is worth to ask more of it.
-constexpr float share_to_open = 0.001f, share_for_caps = 0.01f, share_for_rays = 0.002f;
+constexpr float part_of_lobe = 0.2f, part_of_distance = 0.1f;
+/// What of all its light a light gives a point: from where on its error counts, it is worth caps, and a ray.
+constexpr float share_to_open = 0.005f, share_for_caps = 0.004f, share_for_rays = 0.002f;
 /// And for a first look at how much light there is.
 constexpr float rough_variance = 0.3f;
 /// No light seems smaller than this, rad^2: sharpness has an end.
@@ -19,8 +19,7 @@ constexpr float least_variance = 1e-7f;
 
 /// A light of the cut, with what each lane reflects of one watt of it.
 struct CutLight {
-    Rgb power_w;
-    Vec3f place;                    ///< where its shadow ray ends
+    const VirtualLight* light;
     SphericalGaussian<Batch> seen;  ///< in the shading frame
     Batch scale;                    ///< of its radiance
     Batch diffuse;
@@ -48,6 +47,7 @@ class LightCut {
         if (batch.has_glossy) receiver_.emplace(batch.lobe);
         for (std::size_t i = 0; i < batch_size; ++i) normals_[i] = batch.lanes[i]->surface.bump.normal;
         normal_ = gather_vector([&](std::size_t i) { return normals_[i]; });
+        normal_geometric_ = gather_vector([&](std::size_t i) { return batch.lanes[i]->point.normal_geometric; });
         const auto mean_f = [](const Base& s) {
             return s.has_glossy() ? mean_component(s.fresnel.schlick_f0 + s.fresnel.dielectric_f0) : 0.0f;
         };
@@ -102,28 +102,25 @@ class LightCut {
 
     /// One shadow ray to each light that matters; the rest is seen as these are in the mean.
     void trace(const Scene& scene) {
+        const Batch zero(0.0f);
         Batch seen(0.0f), all(0.0f);
         std::vector<BatchMask> asked(cut_.size());
+        const Batch error_m = gather([&](std::size_t i) { return batch_.lanes[i]->point.error_m; });
+        const Vec3b origin = batch_.position + normal_geometric_ * error_m;
         for (std::size_t k = 0; k < cut_.size(); ++k) {
             CutLight& cut = cut_[k];
             const Batch size = size_of(cut);
-            const Vec3b to_place = broadcast(cut.place) - batch_.position;
-            const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
-            const Vec3b wi = to_place * inverse(distance);
-            const Vec3b normal_geometric =
-                gather_vector([&](std::size_t i) { return batch_.lanes[i]->point.normal_geometric; });
-            const Batch error_m = gather([&](std::size_t i) { return batch_.lanes[i]->point.error_m; });
-            const Batch side = dot(wi, normal_geometric);
-            asked[k] = size > Batch(share_for_rays) * total_ && side > Batch(0.0f) &&
-                       dot(wi, batch_.frame.z) > Batch(0.0f) && first_lanes(batch_.count);
+            asked[k] = size > Batch(share_for_rays) * total_ && first_lanes(batch_.count);
             if (!any(asked[k])) continue;
-            const RayOf<Batch> rays{batch_.position + normal_geometric * error_m, wi, Batch(0.0f),
-                                    select(asked[k], distance * Batch(0.999f), Batch(0.0f))};
-            cut.visible = scene.visibility(rays);
-            seen += select(asked[k], size * cut.visible, Batch(0.0f));
-            all += select(asked[k], size, Batch(0.0f));
+            const PlaceInView place = place_in_view(*cut.light, asked[k]);
+            const RayOf<Batch> rays{origin, place.wi, zero,
+                                    select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+            // Light from places that are all behind the surface comes through it.
+            cut.visible = select(place.is_faced, scene.visibility(rays), zero);
+            seen += select(asked[k], size * cut.visible, zero);
+            all += select(asked[k], size, zero);
         }
-        const Batch mean = select(all > Batch(0.0f), seen / max(all, tiny<Batch>), Batch(1.0f));
+        const Batch mean = select(all > zero, seen / max(all, tiny<Batch>), Batch(1.0f));
         for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, mean);
     }
 
@@ -135,7 +132,7 @@ class LightCut {
         for (const CutLight& cut : cut_) {
             for (int c = 0; c < 3; ++c) {
                 const auto channel = static_cast<std::size_t>(c);
-                const Batch power = Batch(cut.power_w[c]) * cut.visible;
+                const Batch power = Batch(cut.light->power_w[c]) * cut.visible;
                 diffuse[channel] += power * cut.diffuse;
                 glossy[channel] += cut.glossy * power;
             }
@@ -162,12 +159,41 @@ class LightCut {
     }
 
    private:
+    struct PlaceInView {
+        Vec3b wi;  ///< world
+        Batch distance_m;
+        BatchMask is_faced;
+    };
+
+    /// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
+    /// that does.
+    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted) const {
+        PlaceInView result;
+        for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
+            const LightPlace& place = light.places[(sample_index_ + i) % VirtualLight::place_count];
+            const Vec3b to_place = broadcast(place.position) - batch_.position;
+            const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
+            const Vec3b wi = to_place * inverse(distance);
+            const BatchMask faced = dot(wi, normal_geometric_) > Batch(0.0f) && dot(wi, batch_.frame.z) > Batch(0.0f) &&
+                                    dot(wi, broadcast(place.normal)) < Batch(0.0f);
+            if (i == 0) {
+                result = {wi, distance, faced};
+            } else {
+                const BatchMask better = faced && !result.is_faced;
+                result = {select(better, wi, result.wi), select(better, distance, result.distance_m),
+                          result.is_faced || faced};
+            }
+            if (!any(wanted && !result.is_faced)) break;
+        }
+        return result;
+    }
+
     Batch glossy_size_of(const CutLight& cut) const {
-        return cut.glossy.plain * glossy_weight_ * Batch(mean_component(abs(cut.power_w)));
+        return cut.glossy.plain * glossy_weight_ * Batch(mean_component(abs(cut.light->power_w)));
     }
     Batch size_of(const CutLight& cut) const {
         return glossy_size_of(cut) +
-               cut.diffuse * diffuse_weight_ * Batch(mean_component(abs(cut.power_w)) / pi<float>);
+               cut.diffuse * diffuse_weight_ * Batch(mean_component(abs(cut.light->power_w)) / pi<float>);
     }
     /// How lights, or those below them, lie about each lane.
     struct View {
@@ -288,7 +314,7 @@ class LightCut {
             scale *= mean_clamped_cosine(view.facing, Batch(1.0f / std::max(light.sharpness, 0.1f))) *
                      Batch(1.0f / pi<float>);
         }
-        CutLight cut{light.power_w, light.places[sample_index_ % VirtualLight::place_count], seen, scale, zero, {}};
+        CutLight cut{&light, seen, scale, zero, {}};
         if (batch_.has_diffuse)
             cut.diffuse =
                 scale * integrate(seen) * mean_clamped_cosine(dot(seen.axis, normal_), inverse(seen.sharpness));
@@ -306,7 +332,7 @@ class LightCut {
     std::uint32_t sample_index_;
     std::optional<GgxGaussianReceiver<Batch>> receiver_;
     std::array<Vec3f, batch_size> normals_;
-    Vec3b normal_;
+    Vec3b normal_, normal_geometric_;
     Batch glossy_weight_, diffuse_weight_, size_, total_;
     std::vector<CutLight> cut_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_set>
 
 #include "core/distributions/spherical_gaussian.h"
 #include "core/sampling/sobol.h"
@@ -26,7 +25,7 @@ struct LightSums {
 
     void add(const LightDeposit& deposit, std::uint32_t index, double share) {
         const double w = share * static_cast<double>(mean_component(abs(deposit.power_w)));
-        const Vec3d at(deposit.position);
+        const Vec3d at(deposit.place.position);
         weight += w;
         place += w * at;
         square += w * length_squared(at);
@@ -116,6 +115,8 @@ class CellMap {
     std::vector<Value> values_;
 };
 
+struct Nothing {};
+
 struct Cell {
     LightSums sums;
     std::vector<std::uint32_t> children;  ///< cells
@@ -131,21 +132,30 @@ struct CellSize {
     float edge_m() const { return std::ldexp(1.0f, exponent); }
 };
 
-std::size_t cells_filled(std::span<const LightDeposit> deposits, float edge_m) {
-    std::unordered_set<CellKey, CellHash> cells;
-    for (const LightDeposit& d : deposits) {
-        CellKey key{d.owner, 0, 0, {}};
+/// Some deposits tell how large cells are to be.
+constexpr float deposits_asked = 16384.0f;
+
+std::size_t cells_filled(std::span<const LightDeposit* const> deposits, float edge_m) {
+    CellMap<Nothing> cells;
+    for (const LightDeposit* d : deposits) {
+        CellKey key{d->owner, 0, 0, {}};
         for (int c = 0; c < 3; ++c)
-            key.place[static_cast<std::size_t>(c)] = cell_coordinate(d.cell_position[c] / edge_m + 0.5f);
-        cells.insert(key);
+            key.place[static_cast<std::size_t>(c)] = cell_coordinate(d->cell_position[c] / edge_m + 0.5f);
+        cells.find_or_add(key);
     }
     return cells.size();
 }
 
 /// Between the two sizes that fill fewer and more cells than asked for, by the logarithm.
-CellSize cell_size(std::span<const LightDeposit> deposits, std::size_t cell_count) {
+CellSize cell_size(std::span<const LightDeposit> all, std::size_t cell_count) {
     Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
-    for (const LightDeposit& d : deposits) low = min(low, d.cell_position), high = max(high, d.cell_position);
+    std::vector<const LightDeposit*> deposits;
+    const float share =
+        std::max(deposits_asked, 8.0f * static_cast<float>(cell_count)) / static_cast<float>(all.size());
+    for (const LightDeposit& d : all) {
+        if (to_unit(hash(d.id, 0x63656c6cu)) < share) deposits.push_back(&d);
+        low = min(low, d.cell_position), high = max(high, d.cell_position);
+    }
     const float size_m = std::clamp(max_component(high - low), 1e-6f, 1e9f);
     int exponent = std::ilogb(size_m) + 1;
     std::size_t fewer = cells_filled(deposits, std::ldexp(1.0f, exponent));
@@ -282,7 +292,7 @@ class TreeBuilder {
         for (std::size_t i = 0; i < light.places.size(); ++i) {
             const Representative& r = sums.representatives[i];
             light.places[i] =
-                r.rank > -std::numeric_limits<float>::infinity() ? deposits_[r.deposit].position : light.places[0];
+                r.rank > -std::numeric_limits<float>::infinity() ? deposits_[r.deposit].place : light.places[0];
         }
         return light;
     }

@@ -18,10 +18,15 @@
 
 namespace pivot {
 
+/// A place of a surface, world space, and the side of it that shines.
+struct LightPlace {
+    Vec3f position, normal;
+};
+
 /// Light that a surface sends on from a place.
 struct LightDeposit {
-    Vec3f position;  ///< world
-    Vec3f axis;      ///< world, unit: the normal of a diffuse lobe, or a direction that a glossy one reflects to
+    LightPlace place;
+    Vec3f axis;  ///< world, unit: the normal of a diffuse lobe, or a direction that a glossy one reflects to
     Rgb power_w;
     std::uint32_t id;     ///< a number of its own, the same while it moves
     std::uint32_t owner;  ///< an object: cells hold the light of one
@@ -42,7 +47,7 @@ struct VirtualLight {
     float lowest_m;        ///< of the leaves' means, along the axis from the mean
     Rgb power_w;
     std::uint32_t first_child = 0, child_count = 0;
-    std::array<Vec3f, place_count> places;  ///< on surfaces, spread as its light is: where shadow rays end
+    std::array<LightPlace, place_count> places;  ///< spread as its light is: where shadow rays end
 };
 
 /// A tree of lights, the root first; empty where there is no light.

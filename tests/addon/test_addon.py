@@ -27,7 +27,7 @@ def test_defaults(cases: Any) -> None:
         "analytic_method": "AUTO",
         "occlusion": "RAY_TRACED",
         "indirect": "NONE",
-        "virtual_lights": 1024,
+        "virtual_lights": 4096,
         "time_limit_s": 0.0,
         "threads": 0,
         "filter_width_px": 3.0,
