@@ -20,7 +20,8 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              const string& light_sampling, float error_budget_percent, const string& analytic_method,
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
-                             float filter_glossy, const string& indirect, int virtual_lights) {
+                             float filter_glossy, const string& indirect, int virtual_lights,
+                             const string& virtual_light_method) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(clamp_indirect >= 0.0f, "clamp_indirect must not be negative");
@@ -52,6 +53,10 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .indirect =
             from_name<Indirect>("indirect", indirect, {{"NONE", Indirect::none}, {"VSGL", Indirect::virtual_lights}}),
         .virtual_lights = static_cast<std::uint32_t>(virtual_lights),
+        .virtual_light_method = from_name<VirtualLightMethod>("virtual_light_method", virtual_light_method,
+                                                              {{"AUTO", VirtualLightMethod::automatic},
+                                                               {"WIDENED", VirtualLightMethod::widened},
+                                                               {"ANISOTROPIC", VirtualLightMethod::anisotropic}}),
         .time_limit_s = time_limit_s,
         .threads = threads,
         .filter_shape = pixel_filter_from(pixel_filter),
@@ -76,7 +81,8 @@ void register_render(py::module_& module) {
              py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
-             py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096);
+             py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
+             py::arg("virtual_light_method") = "AUTO");
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")

@@ -104,7 +104,7 @@ py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py
     return evaluate_batches(common, area_integral);
 }
 
-enum class GaussianWay { chosen, caps, points, widened };
+enum class GaussianWay { chosen, caps, points, widened, anisotropic };
 
 py::tuple ggx_gaussian_light(const py::object& alpha, const py::object& wo, const py::object& axis,
                              const py::object& sharpness, const std::string& way_name) {
@@ -112,7 +112,8 @@ py::tuple ggx_gaussian_light(const py::object& alpha, const py::object& wo, cons
                                             {{"AUTO", GaussianWay::chosen},
                                              {"CAPS", GaussianWay::caps},
                                              {"POINTS", GaussianWay::points},
-                                             {"WIDENED", GaussianWay::widened}});
+                                             {"WIDENED", GaussianWay::widened},
+                                             {"ANISOTROPIC", GaussianWay::anisotropic}});
     const UpperDirection wo_spec{{"wo"}};
     const Direction axis_spec{"axis"};
     const Number sharpness_spec{.name = "sharpness", .low = 0};
@@ -125,13 +126,19 @@ py::tuple ggx_gaussian_light(const py::object& alpha, const py::object& wo, cons
         const BatchMask points = way == GaussianWay::chosen
                                      ? is_wide(receiver, light)
                                      : Batch(way == GaussianWay::points ? 1.0f : 0.0f) > Batch(0.0f);
-        const LobeSums<Batch> other = way == GaussianWay::widened ? integrate_widened(receiver, light)
-                                                                  : integrate_by_caps(receiver, light, Batch(0.002f));
-        const float other_error = way == GaussianWay::widened ? error_of_widened_lobe : error_of_gaussian_caps;
         LobeIntegral<Batch> result;
-        result.sums = select<Batch>(points, integrate_by_points(receiver, light), other);
-        result.predicted_error = select(points, Batch(error_of_gaussian_points), Batch(other_error));
         result.method = detail::number_of<Batch>(Method::virtual_lights);
+        if (way == GaussianWay::widened) {
+            result.sums = integrate_widened(receiver, light);
+            result.predicted_error = Batch(error_of_widened_lobe);
+        } else if (way == GaussianWay::anisotropic) {
+            result.sums = integrate_anisotropic(receiver, light);
+            result.predicted_error = Batch(error_of_anisotropic_lobe);
+        } else {
+            const LobeSums<Batch> caps = integrate_by_caps(receiver, light, Batch(0.002f));
+            result.sums = select<Batch>(points, integrate_by_points(receiver, light), caps);
+            result.predicted_error = select(points, Batch(error_of_gaussian_points), Batch(error_of_gaussian_caps));
+        }
         return result;
     });
 }
@@ -162,7 +169,8 @@ the centre to the middle of two sides, in the shading frame.)");
                 R"(ggx_gaussian_light(alpha, wo, axis, sharpness, way): (value, error, method).
 
 The same for a spherical Gaussian of radiance, 1 on its axis (n, 3): by CAPS of the exact core, by POINTS of the lobe,
-by the WIDENED lobe of [Tokuyoshi24], or, AUTO, by points where the light is much wider than the lobe, else caps.)");
+by the WIDENED lobe of [Tokuyoshi24], by the ANISOTROPIC Gaussian of [Tokuyoshi15], or, AUTO, by points where the light
+is much wider than the lobe, else caps.)");
 }
 
 }  // namespace pivot::bindings

@@ -665,6 +665,7 @@ class RenderSettings:
         filter_glossy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         indirect: str = "NONE",
         virtual_lights: typing.SupportsInt | typing.SupportsIndex = 4096,
+        virtual_light_method: str = "AUTO",
     ) -> None: ...
 
 class Session:

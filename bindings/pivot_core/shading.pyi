@@ -30,7 +30,8 @@ def ggx_gaussian_light(
     ggx_gaussian_light(alpha, wo, axis, sharpness, way): (value, error, method).
 
     The same for a spherical Gaussian of radiance, 1 on its axis (n, 3): by CAPS of the exact core, by POINTS of the lobe,
-    by the WIDENED lobe of [Tokuyoshi24], or, AUTO, by points where the light is much wider than the lobe, else caps.
+    by the WIDENED lobe of [Tokuyoshi24], by the ANISOTROPIC Gaussian of [Tokuyoshi15], or, AUTO, by points where the light
+    is much wider than the lobe, else caps.
     """
 
 def ggx_sphere_light(

@@ -25,6 +25,10 @@ enum class Occlusion { ray_traced, bent_cone, none };
 /// spherical Gaussian lights.
 enum class Indirect { none, virtual_lights };
 
+/// How virtual lights are integrated: by the exact core's caps where they matter, all by the widened lobe of
+/// [Tokuyoshi24], or all by the formulas of [Tokuyoshi15]; the last two for comparison.
+enum class VirtualLightMethod { automatic, widened, anisotropic };
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -39,8 +43,9 @@ struct RenderSettings {
     Occlusion occlusion = Occlusion::ray_traced;
     Indirect indirect = Indirect::none;
     std::uint32_t virtual_lights = 4096;  ///< about so many cells of light of either kind
-    float time_limit_s = 0.0f;            ///< 0: none
-    int threads = 0;                      ///< 0: all cores
+    VirtualLightMethod virtual_light_method = VirtualLightMethod::automatic;
+    float time_limit_s = 0.0f;  ///< 0: none
+    int threads = 0;            ///< 0: all cores
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;

@@ -42,8 +42,11 @@ Batch smoothstep(const Batch& x) {
 
 class LightCut {
    public:
-    LightCut(const SurfaceBatch& batch, const Batch& budget, std::uint32_t sample_index)
-        : batch_(batch), budget_(budget), sample_index_(sample_index) {
+    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t sample_index)
+        : batch_(batch),
+          budget_(budget_of(settings)),
+          method_(settings.virtual_light_method),
+          sample_index_(sample_index) {
         if (batch.has_glossy) receiver_.emplace(batch.lobe);
         for (std::size_t i = 0; i < batch_size; ++i) normals_[i] = batch.lanes[i]->surface.bump.normal;
         normal_ = gather_vector([&](std::size_t i) { return normals_[i]; });
@@ -88,7 +91,7 @@ class LightCut {
         Batch total(0.0f);
         for (const CutLight& cut : cut_) total += size_of(cut);
         total_ = total;
-        if (!receiver_) return;
+        if (!receiver_ || method_ != VirtualLightMethod::automatic) return;
         const Batch least = Batch(share_for_caps) * total;
         for (CutLight& cut : cut_) {
             const BatchMask wide = is_wide(*receiver_, cut.seen);
@@ -319,16 +322,22 @@ class LightCut {
             cut.diffuse =
                 scale * integrate(seen) * mean_clamped_cosine(dot(seen.axis, normal_), inverse(seen.sharpness));
         if (receiver_) {
-            const BatchMask wide = is_wide(*receiver_, seen);
+            const bool all_alike = method_ != VirtualLightMethod::automatic;
+            const BatchMask wide = all_alike ? zero > zero : is_wide(*receiver_, seen);
             if (any(wide)) cut.glossy = integrate_by_points(*receiver_, seen) * scale;
             if (any(!wide)) cut.glossy = select<Batch>(wide, cut.glossy, integrate_widened(*receiver_, seen) * scale);
             cut.glossy_error = select(wide, Batch(error_of_gaussian_points), Batch(error_of_widened_lobe));
+        }
+        if (method_ == VirtualLightMethod::anisotropic) {
+            cut.diffuse = scale * irradiance_vsgl(seen, dot(seen.axis, normal_));
+            if (receiver_) cut.glossy = integrate_anisotropic(*receiver_, seen) * scale;
         }
         if (any(size_of(cut) > zero)) cut_.push_back(cut);
     }
 
     const SurfaceBatch& batch_;
     Batch budget_;
+    VirtualLightMethod method_;
     std::uint32_t sample_index_;
     std::optional<GgxGaussianReceiver<Batch>> receiver_;
     std::array<Vec3f, batch_size> normals_;
@@ -342,7 +351,7 @@ class LightCut {
 IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
                                           const VirtualLights& lights, const SurfaceBatch& batch,
                                           std::uint32_t sample_index) {
-    LightCut cut(batch, budget_of(settings), sample_index);
+    LightCut cut(batch, settings, sample_index);
     cut.cut(lights);
     cut.refine();
     if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);

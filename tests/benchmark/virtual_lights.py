@@ -53,6 +53,10 @@ def compare(name: str, samples: int) -> None:
     print(f"{name:15} no indirect light              relMSE {without:.5f}            {none_s:6.2f} s CPU")
     rows = [(f"{count} cells", {"virtual_lights": count}) for count in COUNTS]
     rows += [("4096 cells, 1 sample", {"samples": 1}), ("4096 cells, 4 samples", {"samples": 4})]
+    rows += [
+        ("4096 cells, [Tokuyoshi24]", {"virtual_light_method": "WIDENED"}),
+        ("4096 cells, [Tokuyoshi15]", {"virtual_light_method": "ANISOTROPIC"}),
+    ]
     rows += [("4096 cells, no shadow rays", {"occlusion": "NONE"})]
     for label, settings in rows:
         picture, cpu_s, lights = analytic(name, **settings)
