@@ -175,6 +175,8 @@ void deposit_base(const Base& base, const SurfacePoint& point, const Photon& pho
     if (const Rgb power = base.diffuse * photon.power_w; base.has_diffuse() && carries_light(power))
         deposits.diffuse.push_back(cells.deposit(id, owner, place, normal, power));
     if (!base.has_glossy()) return;
+    // Each direction stands for a part of the lobe: one alone would shine without bound.
+    const float concentration = 1.0f - 1.0f / (8.0f * ggx_lobe(base.alpha, base.wo_local).sharpness + 1.0f);
     for (std::uint32_t k = 0; k < directions_per_reflection; ++k) {
         const std::uint32_t dimension = bounce_first + bounce * dimensions_per_bounce + 2;
         const Vec2f u =
@@ -185,7 +187,7 @@ void deposit_base(const Base& base, const SurfacePoint& point, const Photon& pho
         const float pdf = ggx_pdf_omega(base.wo_local, wi_local, base.alpha, base.alpha);
         const Rgb share = eval_glossy(base, wi_local) / (pdf * static_cast<float>(directions_per_reflection));
         if (const Rgb power = share * photon.power_w; pdf > 0.0f && carries_light(power))
-            deposits.glossy.push_back(cells.deposit(hash(id, k), owner, place, wi, power));
+            deposits.glossy.push_back(cells.deposit(hash(id, k), owner, place, wi * concentration, power));
     }
 }
 

@@ -146,20 +146,24 @@ std::size_t cells_filled(std::span<const LightDeposit* const> deposits, float ed
     return cells.size();
 }
 
+constexpr std::size_t places_per_cell = 4;  ///< at least, in the mean
+
 /// Between the two sizes that fill fewer and more cells than asked for, by the logarithm.
-CellSize cell_size(std::span<const LightDeposit> all, std::size_t cell_count) {
+CellSize cell_size(std::span<const LightDeposit> all, std::size_t most_cells) {
     Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
     std::vector<const LightDeposit*> deposits;
     const float share =
-        std::max(deposits_asked, 8.0f * static_cast<float>(cell_count)) / static_cast<float>(all.size());
+        std::max(deposits_asked, 8.0f * static_cast<float>(most_cells)) / static_cast<float>(all.size());
     for (const LightDeposit& d : all) {
         if (to_unit(hash(d.id, 0x63656c6cu)) < share) deposits.push_back(&d);
         low = min(low, d.cell_position), high = max(high, d.cell_position);
     }
     const float size_m = std::clamp(max_component(high - low), 1e-6f, 1e9f);
     int exponent = std::ilogb(size_m) + 1;
+    // What reaches few places is no better for cells that hold one of them each.
+    const std::size_t places = cells_filled(deposits, std::ldexp(1.0f, exponent - 16));
+    const std::size_t cell_count = std::min(most_cells, std::max<std::size_t>(places / places_per_cell, 1));
     std::size_t fewer = cells_filled(deposits, std::ldexp(1.0f, exponent));
-    // Where deposits lie at few places no size fills as many.
     for (const int last = exponent - 16; exponent > last && fewer < cell_count;) {
         const std::size_t more = cells_filled(deposits, std::ldexp(1.0f, exponent - 1));
         --exponent;
@@ -202,7 +206,8 @@ void for_each_cell(const LightDeposit& d, float edge_m, std::uint16_t level, con
 
 class TreeBuilder {
    public:
-    TreeBuilder(std::span<const LightDeposit> deposits, CellMap<Cell>& cells) : deposits_(deposits), cells_(cells) {}
+    TreeBuilder(std::span<const LightDeposit> deposits, CellMap<Cell>& cells, float least_variance_m2)
+        : deposits_(deposits), cells_(cells), least_variance_m2_(least_variance_m2) {}
 
     VirtualLightTree build(std::vector<std::uint32_t> roots) {
         tree_.emplace_back();
@@ -282,6 +287,7 @@ class TreeBuilder {
         const Vec3d mean = sums.place / sums.weight, axis = sums.axis / sums.weight;
         light.mean = Vec3f(mean);
         light.variance_m2 = static_cast<float>(std::max(0.5 * (sums.square / sums.weight - length_squared(mean)), 0.0));
+        light.variance_m2 = std::max(light.variance_m2, least_variance_m2_);
         const double axis_length = length(axis);
         light.axis = axis_length > 1e-6 ? Vec3f(axis / axis_length) : Vec3f(0.0f, 0.0f, 1.0f);
         light.sharpness = static_cast<float>(sharpness_of_mean(axis_length));
@@ -299,10 +305,14 @@ class TreeBuilder {
 
     std::span<const LightDeposit> deposits_;
     CellMap<Cell>& cells_;
+    float least_variance_m2_;
     std::int32_t next_join_ = 0;
     VirtualLightTree tree_;
 };
 
+/// A cell that is lit evenly has a variance of a sixth of its edge squared; what a few deposits, or one, say of theirs
+/// is no less than this part of it, lest they seem points, whose light has no bound.
+constexpr float few_deposits = 24.0f;
 /// Cells are joined by eights so many times before objects are joined by where they stand.
 constexpr int levels_of_object = 7;
 
@@ -336,7 +346,7 @@ VirtualLightTree build_virtual_lights(std::span<const LightDeposit> deposits, st
     }
     std::vector<std::uint32_t> roots = std::move(of_level[levels_of_object]);
     if (roots.empty()) return {};
-    return TreeBuilder(deposits, cells).build(std::move(roots));
+    return TreeBuilder(deposits, cells, sqr(size.edge_m()) / few_deposits).build(std::move(roots));
 }
 
 }  // namespace pivot

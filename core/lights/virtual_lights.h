@@ -26,7 +26,8 @@ struct LightPlace {
 /// Light that a surface sends on from a place.
 struct LightDeposit {
     LightPlace place;
-    Vec3f axis;  ///< world, unit: the normal of a diffuse lobe, or a direction that a glossy one reflects to
+    Vec3f axis;  ///< world: the normal of a diffuse lobe; a direction that a glossy one reflects to, its length the
+                 ///< mean vector's of the part of the lobe that it stands for
     Rgb power_w;
     std::uint32_t id;     ///< a number of its own, the same while it moves
     std::uint32_t owner;  ///< an object: cells hold the light of one

@@ -200,3 +200,16 @@ def test_the_setting_is_named() -> None:
         pivot_core.RenderSettings(indirect="PHOTONS")
     with pytest.raises(ValueError, match="virtual_lights"):
         pivot_core.RenderSettings(virtual_lights=0)
+
+
+def test_few_photons_make_no_bright_points() -> None:
+    """A little metal that few photons of many meet, close to a floor."""
+    scene = pivot_core.Scene()
+    grey = scene.add_material("grey", pivot_core.Material(diffuse=(0.7, 0.7, 0.7)))
+    gold = scene.add_material("gold", pivot_core.Material(conductor_f0=(0.9, 0.7, 0.3), conductor_f90=WHITE, alpha=0.1))
+    scene.add_instances("floor", add_plane(scene, 3.0), place(), [grey])
+    scene.add_instances("ball", add_sphere(scene), place(z=0.2, scale=0.2), [gold])
+    scene.add_light("lamp", pivot_core.SphereLight((1.5, 0.0, 2.0), 0.1, WHITE))
+    set_camera(scene, (0.0, -1.2, 0.8), (0.0, 0.0, 0.1), (64, 48), 0.4)
+    reference = by_monte_carlo(scene, 512)
+    assert indirect(scene, samples=8).max() < 2 * np.quantile(reference, 0.9999)
