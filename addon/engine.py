@@ -162,6 +162,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             reporter.refuse()
         self.frame_count.samples = max(self.frame_count.samples, samples)
         self.frame_count.samples_done.append(session.samples_done)
+        if session.virtual_lights[0] > 0:
+            self.frame_count.virtual_lights.append(session.virtual_lights)
         self.frame_count.warnings.update(reporter.warnings)
 
 

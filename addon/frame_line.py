@@ -19,6 +19,7 @@ class FrameCount:
     began_cpu_s: float = field(default_factory=time.process_time)
     samples_done: list[int] = field(default_factory=list)
     samples: int = 0  # the most that a layer asks for
+    virtual_lights: list[tuple[int, int, float]] = field(default_factory=list)  # of each picture that has any
     warnings: set[str] = field(default_factory=set)
 
 
@@ -35,6 +36,7 @@ def frame_line(scene: bpy.types.Scene, count: FrameCount) -> str:
         f"{time.monotonic() - count.began_s:.1f} s",
         f"{time.process_time() - count.began_cpu_s:.1f} s CPU",
         f"{peak_mb:.0f} MB peak",
+        *_virtual_lights(count),
         f"{len(count.warnings)} {_plural(len(count.warnings), 'warning')}",
     ]
     return " | ".join(["Pivot", *parts])
@@ -48,6 +50,15 @@ def other_engine_line(scene: bpy.types.Scene, command_line: list[str]) -> str | 
         f"Warning: scene '{scene.name}' is rendered by {scene.render.engine}, not by Pivot. "
         "Fix: put -E PIVOT after the .blend and before -f or -a"
     )
+
+
+def _virtual_lights(count: FrameCount) -> list[str]:
+    """What they were and how long they took to make, where there are any."""
+    if not count.virtual_lights:
+        return []
+    lights = sum(lights for lights, _, _ in count.virtual_lights)
+    build_s = sum(seconds for _, _, seconds in count.virtual_lights)
+    return [f"{lights} virtual lights in {build_s:.2f} s"]
 
 
 def _plural(count: int, noun: str) -> str:

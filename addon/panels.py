@@ -105,6 +105,11 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
             layout.prop(pivot, "analytic_method")
             layout.prop(pivot, "error_budget")
             layout.prop(pivot, "occlusion")
+            layout.prop(pivot, "indirect")
+            lights = layout.column()
+            lights.active = pivot.indirect == "VSGL"
+            lights.prop(pivot, "virtual_lights")
+            lights.prop(pivot, "max_bounces")
         layout.prop(pivot, "time_limit")
 
 

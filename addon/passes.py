@@ -41,6 +41,7 @@ PASSES = (
     Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
     Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
     Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
+    Pass("Indirect", "Indirect", "Indirect", "RGB", "COLOR", "use_pass_indirect", "pivot"),
     Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
     Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )

@@ -7,7 +7,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 
 INTEGRATORS = (
     ("MONTE_CARLO", "Monte Carlo", "Unbiased path tracing: for final pictures and ground truth"),
-    ("ANALYTIC", "Analytic", "Closed forms without random numbers: no noise and no flicker, direct light only"),
+    ("ANALYTIC", "Analytic", "Closed forms without random numbers: no noise and no flicker"),
 )
 
 LIGHT_SAMPLING = (
@@ -29,6 +29,15 @@ OCCLUSIONS = (
     ("RAY_TRACED", "Ray Traced", "Rays to a fixed set of points on each light"),
     ("BENT_CONE", "Bent Cones", "The cone of what each vertex sees; soft and fast, but coarse"),
     ("NONE", "None", "Lights cast no shadows"),
+)
+
+INDIRECT = (
+    ("NONE", "None", "Direct light only"),
+    (
+        "VSGL",
+        "Virtual Lights",
+        "What surfaces send on of light that comes to them, as Gaussians: no noise, a little blur",
+    ),
 )
 
 PHASES = (
@@ -100,6 +109,20 @@ class PivotSettings(bpy.types.PropertyGroup):
         items=OCCLUSIONS,
         default="RAY_TRACED",
     )
+    indirect: EnumProperty(
+        name="Indirect Light",
+        description="What is shown of light that comes by way of other surfaces, as often as Max Bounces says",
+        items=INDIRECT,
+        default="NONE",
+    )
+    virtual_lights: IntProperty(
+        name="Virtual Lights",
+        description="About how many places send light on: the more, the less blurred it is near where it comes from",
+        default=4096,
+        min=1,
+        soft_max=65536,
+        max=1 << 20,
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description="Seconds after which a frame stops with the samples it has; 0 is no limit",
@@ -120,6 +143,11 @@ class PivotPasses(bpy.types.PropertyGroup):
     use_pass_method: BoolProperty(
         name="Method",
         description="The analytic integrator's methods, by colour, as each pixel took them",
+        update=_passes_changed,
+    )
+    use_pass_indirect: BoolProperty(
+        name="Indirect",
+        description="The analytic integrator's light that comes by way of other surfaces",
         update=_passes_changed,
     )
     use_pass_error: BoolProperty(

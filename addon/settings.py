@@ -29,6 +29,8 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "error_budget_percent": pivot.error_budget,
         "analytic_method": pivot.analytic_method,
         "occlusion": pivot.occlusion,
+        "indirect": pivot.indirect,
+        "virtual_lights": pivot.virtual_lights,
         "time_limit_s": pivot.time_limit,
         "threads": scene.render.threads,
         "filter_width_px": 2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it

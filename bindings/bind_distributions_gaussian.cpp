@@ -80,6 +80,20 @@ void register_gaussian(py::module_& distributions) {
         },
         sharpness_spec, cos_axis_spec);
     define(
+        distributions, "sg_irradiance_estimate",
+        "sg_irradiance_estimate(sharpness, cos_axis): sg_irradiance within 2 % of the Gaussian's integral, in closed "
+        "form.\n\n"
+        "[Tokuyoshi24]",
+        []<class T>(T sharpness, T cos_axis) { return irradiance_estimate(sharpness, cos_axis); }, sharpness_spec,
+        cos_axis_spec);
+    define(
+        distributions, "sg_sharpness_of_mean",
+        "sg_sharpness_of_mean(mean_length): the sharpness of the Gaussian of directions whose mean vector is so "
+        "long.\n\n"
+        "Within 4 % from a length of 0.9 on, 8 % below. mean_length (...) in [0, 1]. [Banerjee05 (4.4)]",
+        [](auto mean_length) { return sharpness_of_mean(mean_length); },
+        Number{.name = "mean_length", .low = 0, .high = 1});
+    define(
         distributions, "sg_irradiance_vsgl",
         "sg_irradiance_vsgl(sharpness, cos_axis): A(sharpness) max(cos_axis, 0), the VSGL's diffuse shading "
         "before the factor\n"

@@ -20,13 +20,15 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              const string& light_sampling, float error_budget_percent, const string& analytic_method,
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
-                             float filter_glossy) {
+                             float filter_glossy, const string& indirect, int virtual_lights,
+                             const string& virtual_light_method) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(clamp_indirect >= 0.0f, "clamp_indirect must not be negative");
     require(filter_glossy >= 0.0f, "filter_glossy must not be negative");
     require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
     require(time_limit_s >= 0.0f, "time_limit_s must not be negative");
+    require(virtual_lights >= 1 && virtual_lights <= 1 << 20, "virtual_lights must be in [1, 1048576]");
     require(threads >= 0, "threads must not be negative");
     require(filter_width_px >= 0.0f && filter_width_px < 100.0f, "filter_width_px must be in [0, 100)");
     return {
@@ -48,6 +50,13 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .occlusion = from_name<Occlusion>(
             "occlusion", occlusion,
             {{"RAY_TRACED", Occlusion::ray_traced}, {"BENT_CONE", Occlusion::bent_cone}, {"NONE", Occlusion::none}}),
+        .indirect =
+            from_name<Indirect>("indirect", indirect, {{"NONE", Indirect::none}, {"VSGL", Indirect::virtual_lights}}),
+        .virtual_lights = static_cast<std::uint32_t>(virtual_lights),
+        .virtual_light_method = from_name<VirtualLightMethod>("virtual_light_method", virtual_light_method,
+                                                              {{"AUTO", VirtualLightMethod::automatic},
+                                                               {"WIDENED", VirtualLightMethod::widened},
+                                                               {"ANISOTROPIC", VirtualLightMethod::anisotropic}}),
         .time_limit_s = time_limit_s,
         .threads = threads,
         .filter_shape = pixel_filter_from(pixel_filter),
@@ -72,7 +81,8 @@ void register_render(py::module_& module) {
              py::arg("occlusion") = "RAY_TRACED", py::arg("time_limit_s") = 0.0f, py::arg("threads") = 0,
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
-             py::arg("filter_glossy") = 0.0f);
+             py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
+             py::arg("virtual_light_method") = "AUTO");
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -94,12 +104,21 @@ void register_render(py::module_& module) {
                     "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
+        .def_property_readonly(
+            "virtual_lights",
+            [](const Session& s) {
+                const VirtualLights& lights = s.virtual_lights();
+                return py::make_tuple(lights.light_count, lights.photon_count, lights.build_s);
+            },
+            "How many virtual lights there are, the photons that they are made of, and the seconds that took; once "
+            "samples are done.")
         .def("read", &read, py::arg("pass_name"),
              "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
              "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
              "VolumeInd: what media scatter to the camera of light that comes to them "
              "straight, and of other light. Of the analytic "
-             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
+             "integrator, black elsewhere: Indirect, what came by way of other surfaces; Method, the colours of the "
+             "methods taken; Error, the relative error "
              "predicted.");
 }
 

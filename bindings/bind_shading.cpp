@@ -1,8 +1,10 @@
 #include <pybind11/stl.h>
 
+#include "bindings/names.h"
 #include "bindings/register.h"
 #include "bindings/vectorize.h"
 #include "core/shading/ggx_area_light.h"
+#include "core/shading/ggx_gaussian_light.h"
 #include "core/simd/batch.h"
 
 namespace pivot::bindings {
@@ -102,6 +104,45 @@ py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py
     return evaluate_batches(common, area_integral);
 }
 
+enum class GaussianWay { chosen, caps, points, widened, anisotropic };
+
+py::tuple ggx_gaussian_light(const py::object& alpha, const py::object& wo, const py::object& axis,
+                             const py::object& sharpness, const std::string& way_name) {
+    const auto way = from_name<GaussianWay>("way", way_name,
+                                            {{"AUTO", GaussianWay::chosen},
+                                             {"CAPS", GaussianWay::caps},
+                                             {"POINTS", GaussianWay::points},
+                                             {"WIDENED", GaussianWay::widened},
+                                             {"ANISOTROPIC", GaussianWay::anisotropic}});
+    const UpperDirection wo_spec{{"wo"}};
+    const Direction axis_spec{"axis"};
+    const Number sharpness_spec{.name = "sharpness", .low = 0};
+    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), axes(axis_spec, axis);
+    const Input<float> sharpnesses(sharpness_spec, sharpness);
+    const Shape common = common_shape({{"alpha", &alphas}, {"wo", &wos}, {"axis", &axes}, {"sharpness", &sharpnesses}});
+    return evaluate_batches(common, [&](const auto& gather) {
+        const GgxGaussianReceiver<Batch> receiver(gather_lobe(gather(alphas), gather(wos)));
+        const SphericalGaussian<Batch> light{gather(axes).direction(), gather(sharpnesses)(0), Batch(0.0f)};
+        const BatchMask points = way == GaussianWay::chosen
+                                     ? is_wide(receiver, light)
+                                     : Batch(way == GaussianWay::points ? 1.0f : 0.0f) > Batch(0.0f);
+        LobeIntegral<Batch> result;
+        result.method = detail::number_of<Batch>(Method::virtual_lights);
+        if (way == GaussianWay::widened) {
+            result.sums = integrate_widened(receiver, light);
+            result.predicted_error = Batch(error_of_widened_lobe);
+        } else if (way == GaussianWay::anisotropic) {
+            result.sums = integrate_anisotropic(receiver, light);
+            result.predicted_error = Batch(error_of_anisotropic_lobe);
+        } else {
+            const LobeSums<Batch> caps = integrate_by_caps(receiver, light, Batch(0.002f));
+            result.sums = select<Batch>(points, integrate_by_points(receiver, light), caps);
+            result.predicted_error = select(points, Batch(error_of_gaussian_points), Batch(error_of_gaussian_caps));
+        }
+        return result;
+    });
+}
+
 }  // namespace
 
 void register_shading(py::module_& shading) {
@@ -123,6 +164,13 @@ value: reflected over emitted radiance, float32. error: the predicted relative e
 
 The same for a parallelogram, or the ellipse in it: center (n, 3) from the shaded point, half_u and half_v (n, 3) from
 the centre to the middle of two sides, in the shading frame.)");
+    shading.def("ggx_gaussian_light", &ggx_gaussian_light, py::arg("alpha"), py::arg("wo"), py::arg("axis"),
+                py::arg("sharpness"), py::arg("way") = "AUTO",
+                R"(ggx_gaussian_light(alpha, wo, axis, sharpness, way): (value, error, method).
+
+The same for a spherical Gaussian of radiance, 1 on its axis (n, 3): by CAPS of the exact core, by POINTS of the lobe,
+by the WIDENED lobe of [Tokuyoshi24], by the ANISOTROPIC Gaussian of [Tokuyoshi15], or, AUTO, by points where the light
+is much wider than the lobe, else caps.)");
 }
 
 }  // namespace pivot::bindings

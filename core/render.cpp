@@ -9,6 +9,7 @@
 
 #include "core/integrators/analytic.h"
 #include "core/integrators/monte_carlo.h"
+#include "core/integrators/photons.h"
 
 namespace pivot {
 namespace {
@@ -59,7 +60,8 @@ std::optional<float> radiance_variance(std::span<const Sample> samples) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum = s.radiance + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
+    const Vec3f sum =
+        s.radiance + s.indirect + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 
@@ -136,6 +138,8 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
+    if (settings_.integrator == Integrator::analytic && settings_.indirect == Indirect::virtual_lights)
+        virtual_lights_ = trace_virtual_lights(*scene_, settings_);
     if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else
@@ -301,7 +305,7 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
         for (std::size_t i = first; i < order.size() && indices[order[i]] == index; ++i)
             together.push_back(rays[order[i]]);
         shaded.resize(together.size());
-        shade_analytic(*scene_, settings_, together, index, shaded);
+        shade_analytic(*scene_, settings_, virtual_lights_, together, index, shaded);
         for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
     }
 }

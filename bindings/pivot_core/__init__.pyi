@@ -663,6 +663,9 @@ class RenderSettings:
         adaptive: bool = False,
         clamp_indirect: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         filter_glossy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        indirect: str = "NONE",
+        virtual_lights: typing.SupportsInt | typing.SupportsIndex = 4096,
+        virtual_light_method: str = "AUTO",
     ) -> None: ...
 
 class Session:
@@ -677,7 +680,7 @@ class Session:
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light. Of the analytic integrator, black elsewhere: Indirect, what came by way of other surfaces; Method, the colours of the methods taken; Error, the relative error predicted.
         """
     def start(self) -> None:
         """
@@ -712,6 +715,11 @@ class Session:
     def samples_done(self) -> int:
         """
         Samples complete over the whole window; under adaptive sampling, of those pixels that take as many.
+        """
+    @property
+    def virtual_lights(self) -> tuple[int, int, float]:
+        """
+        How many virtual lights there are, the photons that they are made of, and the seconds that took; once samples are done.
         """
     @property
     def width(self) -> int: ...

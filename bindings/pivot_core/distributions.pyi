@@ -74,8 +74,10 @@ __all__: list[str] = [
     "sg_ggx_lobe",
     "sg_integral",
     "sg_irradiance",
+    "sg_irradiance_estimate",
     "sg_irradiance_vsgl",
     "sg_product",
+    "sg_sharpness_of_mean",
     "sphere_light_cap",
     "sptd_cosine_cap_pdf",
     "sptd_cosine_cap_sample",
@@ -586,6 +588,13 @@ def sg_irradiance(sharpness: typing.Any, cos_axis: typing.Any) -> typing.Any:
     cos_axis (...): cosine between the Gaussian's axis and the normal. Error 1e-12 in float64.
     """
 
+def sg_irradiance_estimate(sharpness: typing.Any, cos_axis: typing.Any) -> typing.Any:
+    """
+    sg_irradiance_estimate(sharpness, cos_axis): sg_irradiance within 2 % of the Gaussian's integral, in closed form.
+
+    [Tokuyoshi24]
+    """
+
 def sg_irradiance_vsgl(sharpness: typing.Any, cos_axis: typing.Any) -> typing.Any:
     """
     sg_irradiance_vsgl(sharpness, cos_axis): A(sharpness) max(cos_axis, 0), the VSGL's diffuse shading before the factor
@@ -600,6 +609,13 @@ def sg_product(axis_a: typing.Any, sharpness_a: typing.Any, axis_b: typing.Any, 
 
     Returns (axis (..., 3), sharpness (...), log_amplitude (...)): the product is exp(log_amplitude) times the Gaussian.
     log_amplitude = -lambda_a lambda_b |a - b|^2 / (lambda + lambda_a + lambda_b).
+    """
+
+def sg_sharpness_of_mean(mean_length: typing.Any) -> typing.Any:
+    """
+    sg_sharpness_of_mean(mean_length): the sharpness of the Gaussian of directions whose mean vector is so long.
+
+    Within 4 % from a length of 0.9 on, 8 % below. mean_length (...) in [0, 1]. [Banerjee05 (4.4)]
     """
 
 def sphere_light_cap(center: typing.Any, radius: typing.Any) -> typing.Any:

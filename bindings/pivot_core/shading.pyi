@@ -5,7 +5,7 @@ Lobes under lights within an error budget, as the renderer does it.
 from __future__ import annotations
 import typing
 
-__all__: list[str] = ["METHODS", "ggx_area_light", "ggx_sphere_light"]
+__all__: list[str] = ["METHODS", "ggx_area_light", "ggx_gaussian_light", "ggx_sphere_light"]
 
 def ggx_area_light(
     alpha: typing.Any,
@@ -21,6 +21,17 @@ def ggx_area_light(
 
     The same for a parallelogram, or the ellipse in it: center (n, 3) from the shaded point, half_u and half_v (n, 3) from
     the centre to the middle of two sides, in the shading frame.
+    """
+
+def ggx_gaussian_light(
+    alpha: typing.Any, wo: typing.Any, axis: typing.Any, sharpness: typing.Any, way: str = "AUTO"
+) -> tuple:
+    """
+    ggx_gaussian_light(alpha, wo, axis, sharpness, way): (value, error, method).
+
+    The same for a spherical Gaussian of radiance, 1 on its axis (n, 3): by CAPS of the exact core, by POINTS of the lobe,
+    by the WIDENED lobe of [Tokuyoshi24], by the ANISOTROPIC Gaussian of [Tokuyoshi15], or, AUTO, by points where the light
+    is much wider than the lobe, else caps.
     """
 
 def ggx_sphere_light(
@@ -54,5 +65,6 @@ METHODS: tuple = (
     "LOBE_DIRECTIONS",
     "SPTD",
     "LTC",
+    "VIRTUAL_LIGHTS",
     "POINT_SET",
 )

@@ -4,12 +4,16 @@
 // [Tokuyoshi15] Tokuyoshi, "Virtual Spherical Gaussian Lights for Real-time Glossy Indirect Illumination",
 // Computer
 //               Graphics Forum 34(7), 2015, supplemental material.
+// [Tokuyoshi24] Tokuyoshi, Ikeda, Kulkarni, Harada, "Hierarchical Light Sampling with Accurate Spherical Gaussian
+//               Lighting", SIGGRAPH Asia 2024.
+// [Banerjee05]  Banerjee, Dhillon, Ghosh, Sra, "Clustering on the Unit Hypersphere using von Mises-Fisher
+//               Distributions", JMLR 6, 2005.
 // [Xu13]        Xu, Sun, Dong, Zhao, Wu, Hu, "Anisotropic Spherical Gaussians", ACM TOG 32(6), 2013.
 //
 // Exponents are taken from differences of unit vectors, 1 - a.b = |a - b|^2 / 2: at a sharpness of 1e7 the
 // dot product's own rounding would be the result. Products carry their amplitude as its logarithm for the
 // same reason. [Tokuyoshi15] prints the diffuse term with the cosine pulled out of the integral; `irradiance`
-// is the exact one.
+// is the exact one, and `irradiance_estimate` a closed form near it.
 #pragma once
 
 #include "core/math/quadrature.h"
@@ -84,6 +88,33 @@ T irradiance(const SphericalGaussian<T>& sg, T cos_axis) {
         return turn * cosh(y) * (ring(sine, cosine, sin(half)) + ring(sine, -cosine, cos(half)));
     });
     return T(2) * exp(sg.log_amplitude) * (above + exp(-lambda * whole) * sqr(s) * crossing);
+}
+
+/// The same within 2 % of the Gaussian's solid angle: between what a Gaussian about the zenith and one about the nadir
+/// give, by an error function of the cosine, nearly [Tokuyoshi24].
+template <class T>
+T irradiance_estimate(T sharpness, T cos_axis) {
+    const T lambda = max(sharpness, T(1e-6f)), c = cos_axis;
+    const T t = lambda * sqrt(T(0.5) * ((lambda + T(2.7360832f)) * lambda + T(17.021298f)) /
+                              (((lambda + T(4.0100827f)) * lambda + T(15.219156f)) * lambda + T(76.087896f)));
+    const T gap = sqr(t) * (T(1) - c) * (T(1) + c);  // expm1 of -gap
+    const T share = T(0.5) * (c * erfc(-t * c) + erfc(t)) - exp(-sqr(t * c)) * expm1(-gap) / (T(2) * sqrt(pi<T>) * t);
+    const T fading = exp(-lambda), mean = -expm1(-lambda) / lambda;
+    // Near 0 what is left of two differences: their series.
+    const auto is_wide = lambda < T(0.5f);
+    const T up = select(is_wide, T(0.5f) - lambda * (T(1.0f / 6) - lambda * (T(1.0f / 24) - lambda * T(1.0f / 120))),
+                        (T(1) - mean) / lambda);
+    const T down =
+        select(is_wide, fading * (T(0.5f) - lambda * (T(1.0f / 3) - lambda * (T(0.125f) - lambda * T(1.0f / 30)))),
+               fading * (mean - fading) / lambda);
+    return T(2) * pi<T> * lerp(down, up, share);
+}
+
+/// Of the von Mises-Fisher distribution, a Gaussian of directions, whose mean vector is so long [Banerjee05 (4.4)].
+template <class T>
+T sharpness_of_mean(T mean_length) {
+    const T r = min(mean_length, T(1.0f - 1e-6f));
+    return r * (T(3) - r * r) / ((T(1) - r) * (T(1) + r));
 }
 
 /// Diffuse shading by a VSGL, without the factor reflectance / pi: the cosine pulled out of the integral

@@ -12,13 +12,19 @@ namespace {
 /// Sums, number by number.
 void add_weighted(std::span<const Sample> samples, std::span<const float> weights, float scale, Sample& sum) {
     constexpr std::size_t numbers = sizeof(Sample) / sizeof(float);
-    static_assert(numbers % batch_size == 0);
-    for (std::size_t first = 0; first < numbers; first += batch_size) {
+    constexpr std::size_t together = numbers / batch_size * batch_size;
+    for (std::size_t first = 0; first < together; first += batch_size) {
         Batch added(0.0f);
         for (std::size_t i = 0; i < samples.size(); ++i)
             added += Batch(weights[i]) * Batch::load_unaligned(reinterpret_cast<const float*>(&samples[i]) + first);
         float* const to = reinterpret_cast<float*>(&sum) + first;
         (Batch::load_unaligned(to) + Batch(scale) * added).store_unaligned(to);
+    }
+    for (std::size_t at = together; at < numbers; ++at) {
+        float added = 0.0f;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            added += weights[i] * reinterpret_cast<const float*>(&samples[i])[at];
+        reinterpret_cast<float*>(&sum)[at] += scale * added;
     }
 }
 
@@ -60,6 +66,7 @@ constexpr Pass passes[] = {
     {"Emit", 3, write_mean<&Sample::emission>},
     {"VolumeDir", 3, write_mean<&Sample::volume_direct>},
     {"VolumeInd", 3, write_mean<&Sample::volume_indirect>},
+    {"Indirect", 3, write_mean<&Sample::indirect>},
     {"Method", 3, write_mean<&Sample::method>},
     {"Error", 1, [](const Pixel& pixel, float* out) { *out = predicted_error(pixel); }},
 };

@@ -23,6 +23,7 @@ struct Sample {
     Rgb emission{0.0f};            ///< of the first hit itself
     Rgb volume_direct{0.0f};       ///< what media scatter to the camera of light that comes to them straight
     Rgb volume_indirect{0.0f};     ///< and of other light
+    Rgb indirect{0.0f};            ///< analytic: of radiance, what came by way of other surfaces
     Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
     float error = 0.0f;            ///< analytic: predicted for what is in closed form, as radiance
     float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared

@@ -8,6 +8,7 @@
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/lobe_points.h"
 #include "core/integrators/specular_occlusion.h"
+#include "core/integrators/virtual_light_shading.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
@@ -27,6 +28,7 @@ constexpr std::array<std::array<float, 3>, method_names.size()> method_colors{{{
                                                                                {0.9f, 0.2f, 0.6f},
                                                                                {0.4f, 0.4f, 0.4f},
                                                                                {0.7f, 0.7f, 0.7f},
+                                                                               {0.3f, 0.9f, 0.9f},
                                                                                {1.0f, 1.0f, 1.0f}}};
 
 Rgb color_of(Method method) {
@@ -38,7 +40,7 @@ float size_of(const Rgb& light) { return mean_component(abs(light)); }
 
 /// A point's direct light so far, the methods weighted by what they contribute.
 struct Gathered {
-    Rgb radiance{0.0f}, method{0.0f};
+    Rgb radiance{0.0f}, indirect{0.0f}, method{0.0f};
     float size = 0.0f;  ///< of the light, whatever its sign
     float error = 0.0f, shadow_variance = 0.0f;
 
@@ -50,6 +52,7 @@ struct Gathered {
     }
     void add(const Gathered& part) {
         radiance += part.radiance;
+        indirect += part.indirect;
         size += part.size;
         method += part.method;
         error += part.error;
@@ -164,12 +167,26 @@ void add_lamps(const Scene& scene, const RenderSettings& settings, const ShadowP
     }
 }
 
+void add_virtual_lights(const Scene& scene, const RenderSettings& settings, const VirtualLights& lights,
+                        std::uint32_t sample_index, const SurfaceBatch& batch, std::span<Gathered> gathered) {
+    const IndirectReflection reflection = reflect_virtual_lights(scene, settings, lights, batch, sample_index);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const Rgb& light = reflection.radiance[i];
+        const float size = size_of(light);
+        gathered[i].add(light, Method::virtual_lights, size > 0.0f ? reflection.error[i] / size : 0.0f);
+        gathered[i].indirect += light;
+    }
+}
+
 void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
+                 const VirtualLights& virtual_lights, std::uint32_t sample_index,
                  std::span<const ShadingPoint> shading, std::span<Gathered> gathered) {
     const SurfaceBatch batch = make_batch(shading);
     if (!batch.has_diffuse && !batch.has_glossy) return;
     Unhidden light = unhidden_light(scene, settings, batch);
     add_lamps(scene, settings, points, batch, light, gathered);
+    if (!virtual_lights.is_empty())
+        add_virtual_lights(scene, settings, virtual_lights, sample_index, batch, gathered);
     if (!scene.has_world()) return;
     for (std::size_t i = 0; i < shading.size(); ++i) {
         WorldReflection world = light.world[i];
@@ -262,8 +279,8 @@ void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span
 
 }  // namespace
 
-void shade_analytic(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                    std::uint32_t sample_index, std::span<Sample> samples) {
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const VirtualLights& virtual_lights,
+                    std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
@@ -318,7 +335,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
         std::array<Gathered, batch_size> gathered{};
-        shade_batch(scene, settings, points, std::span(shading).subspan(first, count),
+        shade_batch(scene, settings, points, virtual_lights, sample_index, std::span(shading).subspan(first, count),
                     std::span(gathered).first(count));
         for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
     }
@@ -328,6 +345,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
         Sample& sample = samples[surface.sample];
         const Gathered& gathered = light[surface.sample];
         sample.radiance += gathered.radiance;
+        sample.indirect = gathered.indirect;
         sample.method = gathered.size > 0.0f ? gathered.method / gathered.size : Rgb(0.0f);
         sample.error = gathered.error;
         sample.shadow_variance = gathered.shadow_variance;
@@ -337,6 +355,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, std::spa
         const float left = mean_component(through[i]);
         sample.radiance = sample.radiance * through[i] + fog[i].scattered + fog[i].emitted;
         sample.emission = sample.emission * through[i] + fog[i].emitted;
+        sample.indirect = sample.indirect * through[i];
         sample.volume_direct = fog[i].scattered;
         sample.error = sample.error * left + fog[i].error;
         sample.shadow_variance = sample.shadow_variance * sqr(left) + fog[i].shadow_variance;

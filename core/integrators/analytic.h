@@ -2,20 +2,21 @@
 //
 // Each light is integrated over each lobe by the cheapest method that meets the error budget (core/shading), eight
 // points at a time; visibility is traced to a fixed set of points on the light, the same for every pixel. Light between
-// surfaces is left to Monte Carlo.
+// surfaces is that of virtual lights, or left to Monte Carlo.
 #pragma once
 
 #include <span>
 
 #include "core/film/film.h"
 #include "core/integrators/settings.h"
+#include "core/lights/virtual_lights.h"
 #include "core/scene/scene.h"
 
 namespace pivot {
 
 /// Camera rays, best neighbours. sample_index: which part of the fixed point sets these rays use; all samples of a
-/// pixel together use them whole. samples: one per ray.
-void shade_analytic(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                    std::uint32_t sample_index, std::span<Sample> samples);
+/// pixel together use them whole. samples: one per ray. virtual_lights: empty where there is to be no indirect light.
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const VirtualLights& virtual_lights,
+                    std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples);
 
 }  // namespace pivot

@@ -22,6 +22,14 @@ enum class AnalyticMethod { automatic, exact, sptd, ltc };
 /// What the analytic integrator takes for visibility: rays to the lights, the bent cones of the vertices, or nothing.
 enum class Occlusion { ray_traced, bent_cone, none };
 
+/// What the analytic integrator shows of light that comes by way of other surfaces: nothing, or that of virtual
+/// spherical Gaussian lights.
+enum class Indirect { none, virtual_lights };
+
+/// How virtual lights are integrated: by the exact core's caps where they matter, all by the widened lobe of
+/// [Tokuyoshi24], or all by the formulas of [Tokuyoshi15]; the last two for comparison.
+enum class VirtualLightMethod { automatic, widened, anisotropic };
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -34,6 +42,9 @@ struct RenderSettings {
     float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show; adaptive: what noise may be left
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;
+    Indirect indirect = Indirect::none;
+    std::uint32_t virtual_lights = 4096;  ///< about so many cells of light of either kind
+    VirtualLightMethod virtual_light_method = VirtualLightMethod::automatic;
     float time_limit_s = 0.0f;  ///< 0: none
     int threads = 0;            ///< 0: all cores
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;

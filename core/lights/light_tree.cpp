@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/distributions/spherical_gaussian.h"
+
 namespace pivot {
 namespace {
 
@@ -89,12 +91,6 @@ LightProxyOf<float> proxy_of(const Light& light) {
     return proxy;
 }
 
-/// Of the von Mises-Fisher distribution whose mean is so long. [Banerjee05, as in Tokuyoshi24]
-float sharpness_of(float mean_length) {
-    const float r = std::min(mean_length, 1.0f - 1e-6f);
-    return r * (3.0f - r * r) / (1.0f - r * r);
-}
-
 /// Lights together: suns, or lights that are none.
 LightProxyOf<float> proxy_of(std::span<const LightMoments> moments, std::span<const std::uint32_t> indices,
                              bool are_suns) {
@@ -116,7 +112,7 @@ LightProxyOf<float> proxy_of(std::span<const LightMoments> moments, std::span<co
         bound_m = std::max(bound_m, std::sqrt(apart2) + moments[i].bound_m);
     }
     const Vec3f axis(direction);
-    const float mean_length = length(axis), sharpness = sharpness_of(mean_length);
+    const float mean_length = length(axis), sharpness = sharpness_of_mean(mean_length);
     // The Gaussian's peak over its mean.
     const float peak = sharpness > 1e-3f ? 2.0f * sharpness / -std::expm1(-2.0f * sharpness) : 1.0f;
     return {.mean = Vec3f(mean),

@@ -17,6 +17,8 @@ using std::atan2;
 using std::cbrt;
 using std::cos;
 using std::cosh;
+using std::erf;
+using std::erfc;
 using std::exp;
 using std::expm1;
 using std::floor;

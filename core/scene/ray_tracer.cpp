@@ -365,6 +365,12 @@ bool RayTracer::occluded(const Ray& ray) const {
     return r.tfar < 0.0f;
 }
 
+std::array<Vec3f, 2> RayTracer::bounds() const {
+    RTCBounds box;
+    rtcGetSceneBounds(implementation_->traced(), &box);
+    return {Vec3f(box.lower_x, box.lower_y, box.lower_z), Vec3f(box.upper_x, box.upper_y, box.upper_z)};
+}
+
 void RayTracer::crossings(const Ray& ray, std::vector<Crossing>& found) const {
     RTCRayHit r{};
     r.ray = to_embree(ray, ~0u);

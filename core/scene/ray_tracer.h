@@ -69,6 +69,9 @@ class RayTracer {
     void intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const;
 
+    /// The lowest and the highest corner of a box around all; the lowest is above the highest where there is nothing.
+    std::array<Vec3f, 2> bounds() const;
+
     /// Appends every surface along a ray, in no order, whoever sees it.
     void crossings(const Ray& ray, std::vector<Crossing>& found) const;
 

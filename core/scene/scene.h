@@ -88,6 +88,8 @@ class Scene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
         ray_tracer_.occluded(rays, occluded_rays);
     }
+    /// The lowest and the highest corner of a box around all surfaces.
+    std::array<Vec3f, 2> bounds() const { return ray_tracer_.bounds(); }
     /// What fills space; empty in most scenes.
     const Media& media() const { return *media_; }
     RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const {
@@ -102,6 +104,7 @@ class Scene {
     std::span<const Shader> shaders() const { return shaders_; }
     std::uint32_t material_of(const RayHit& hit) const;
     const Mesh& mesh_of(const RayHit& hit) const { return *meshes_[instances_[hit.instance]->mesh]; }
+    const Transform& world_from_object(std::uint32_t instance) const { return instances_[instance]->world_from_object; }
     const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {

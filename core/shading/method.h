@@ -26,12 +26,13 @@ enum class Method : unsigned char {
     lobe_directions,  ///< directions of the lobe that meet an area light; points of a lobe without closed forms
     sptd,
     ltc,
-    point_set,  ///< light from everywhere
+    virtual_lights,  ///< Gaussians, together where they look small
+    point_set,       ///< light from everywhere
 };
 
-inline constexpr std::array<std::string_view, 14> method_names{
-    "NONE",     "POINTS_1",    "POINTS_4",    "POINTS_8",        "POINTS_16", "SLICES_5", "SLICES_6",
-    "SLICES_8", "BEAM_LAYERS", "AREA_POINTS", "LOBE_DIRECTIONS", "SPTD",      "LTC",      "POINT_SET"};
+inline constexpr std::array<std::string_view, 15> method_names{
+    "NONE",        "POINTS_1",    "POINTS_4",        "POINTS_8", "POINTS_16", "SLICES_5",       "SLICES_6", "SLICES_8",
+    "BEAM_LAYERS", "AREA_POINTS", "LOBE_DIRECTIONS", "SPTD",     "LTC",       "VIRTUAL_LIGHTS", "POINT_SET"};
 
 /// The error of the exact core's one point, for a cap of the given versine that does not cross the horizon. What the
 /// point takes for constant is masking-shadowing: its relative slope along z, and the slope's own scale, z.

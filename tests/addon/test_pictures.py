@@ -54,7 +54,7 @@ def first(folder: Path) -> dict[str, np.ndarray]:
 
 
 def test_passes_are_those_that_are_switched_on(first: dict[str, np.ndarray], names: dict[str, str]) -> None:
-    everything = {"Combined", "Depth", "Normal", "Position", "Method", "Error", *names.values()}
+    everything = {"Combined", "Depth", "Normal", "Position", "Method", "Error", "Indirect", *names.values()}
     assert set(first) == {f"first.{name}" for name in everything} | {"clay.Combined", f"clay.{names['albedo']}"}
 
 

@@ -31,6 +31,7 @@ def _settings() -> Any:
     pivot.clamp_indirect, pivot.filter_glossy = 2.5, 1.5
     pivot.error_budget, pivot.time_limit = 0.5, 12
     pivot.analytic_method, pivot.occlusion = "LTC", "BENT_CONE"
+    pivot.indirect, pivot.virtual_lights = "VSGL", 256
     render.threads_mode, render.threads = "FIXED", 3
     render.filter_size, render.film_transparent = 2.0, True
     return asdict(record().settings)

@@ -70,7 +70,7 @@ def _scene() -> None:
     first.name = "first"
     for name in PASSES:
         setattr(first, f"use_pass_{name}", True)
-    first.pivot.use_pass_method = first.pivot.use_pass_error = True
+    first.pivot.use_pass_method = first.pivot.use_pass_error = first.pivot.use_pass_indirect = True
     first.cycles.use_pass_volume_direct = first.cycles.use_pass_volume_indirect = True
     clay = scene.view_layers.new("clay")
     clay.material_override = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.5, 0.5, 0.5, 1))[0]

@@ -104,6 +104,8 @@ class RenderSettings:
     error_budget_percent: float
     analytic_method: str
     occlusion: str
+    indirect: str
+    virtual_lights: int
     time_limit_s: float
     threads: int
     filter_width_px: float
@@ -232,6 +234,7 @@ class Scene:
 class Session:
     progress = 1.0
     bad_samples: tuple[str, ...] = ()
+    virtual_lights = (0, 0, 0.0)
 
     @staticmethod
     def bytes_per_pixel(adaptive: bool) -> int:

@@ -1,0 +1,301 @@
+#include "core/integrators/photons.h"
+
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+#include <numeric>
+
+#include "core/distributions/spherical_gaussian.h"
+#include "core/integrators/arrival.h"
+#include "core/sampling/sobol.h"
+#include "core/sampling/warp.h"
+#include "core/simd/pack.h"
+
+namespace pivot {
+namespace {
+
+constexpr std::uint32_t photons_per_light = 64;  ///< of the virtual lights asked for
+constexpr std::uint32_t directions_per_reflection = 4;
+constexpr std::uint32_t photon_seed = 0x70686f74;
+
+/// Which of the sampler's dimensions a photon takes.
+enum Dimension : std::uint32_t { emission_direction, emission_place, bounce_first };
+constexpr std::uint32_t dimensions_per_bounce = 3;
+
+struct Photon {
+    Ray ray;
+    Rgb power_w;
+    Sampler sampler;
+};
+
+/// A sphere around all that photons may meet.
+struct Bounds {
+    Vec3f center;
+    float radius_m;
+};
+
+Bounds bounds_of(const Scene& scene) {
+    const auto [low, high] = scene.bounds();
+    return {0.5f * (low + high), 0.5f * length(high - low)};
+}
+
+/// Of photons that come in parallel from `from`: their start on a disk around the scene.
+Ray ray_from_far(const Bounds& bounds, const Vec3f& from, const Vec2f& u) {
+    const Frame<float> frame = frame_from_z(from);
+    const Vec2f disk = sample_disk(u) * bounds.radius_m;
+    return {bounds.center + frame.to_world({disk.x, disk.y, bounds.radius_m}), -from};
+}
+
+/// A light's photons: where one starts, and its power were it alone.
+struct Emitter {
+    const Bounds& bounds;
+    Vec2f u_direction, u_place;
+
+    struct Emission {
+        Ray ray;
+        Rgb power_w;
+    };
+
+    Emission from_sphere(const SphereLight& light, const Cap<float>& directions) const {
+        const Vec3f direction = sample(directions, u_direction);
+        const Frame<float> frame = frame_from_z(direction);
+        const Vec2f disk = sample_disk(u_place) * light.radius_m;
+        const float ahead = light.is_facing_disk ? 0.0f : safe_sqrt(sqr(light.radius_m) - dot(disk, disk));
+        const Vec3f start = light.center + frame.to_world({disk.x, disk.y, ahead});
+        return {{start, direction}, light.radiance * (solid_angle(directions) * pi<float> * sqr(light.radius_m))};
+    }
+    Emission operator()(const SphereLight& light) const { return from_sphere(light, {Vec3f(0.0f, 0.0f, 1.0f), 2.0f}); }
+    Emission operator()(const SpotLight& light) const {
+        Emission emission = from_sphere(light.sphere, {light.direction, 1.0f - light.cos_half_angle});
+        emission.power_w *= spot_falloff(light, dot(emission.ray.direction, light.direction));
+        return emission;
+    }
+    Emission operator()(const SunLight& light) const {
+        const Vec3f from = sample(light.cap, u_direction);
+        const float irradiance = pi<float> * sin2_half_angle(light.cap);
+        return {ray_from_far(bounds, from, u_place), light.radiance * (irradiance * pi<float> * sqr(bounds.radius_m))};
+    }
+    Emission operator()(const AreaLight& light) const {
+        const Frame<float> frame = frame_from_z(light.normal);
+        Vec2f u = u_direction;
+        Rgb power = light.radiance * (pi<float> * light.area_m2);
+        float side = 1.0f;
+        if (light.is_two_sided()) {
+            side = u.x < 0.5f ? 1.0f : -1.0f;
+            u.x = 2.0f * u.x - (u.x < 0.5f ? 0.0f : 1.0f);
+            power *= 2.0f;
+        }
+        const Vec3f local = sample_cosine_hemisphere(u);
+        const Vec3f direction = side * frame.to_world(local);
+        const Vec3f start = place_on(light, u_place) + light.normal * (side * surface_error_m(light));
+        return {{start, direction}, power};
+    }
+};
+
+float power_of(const Light& light, const Bounds& bounds) {
+    // A spot's power falls off from its axis: what its photons carry at most, for its share of them.
+    const auto emission = std::visit(Emitter{bounds, Vec2f(0.5f), Vec2f(0.5f)}, light);
+    return mean_component(abs(emission.power_w));
+}
+
+/// Photons with even shares of their light's power, as many of each light as its power is of all.
+std::vector<Photon> emit(const Scene& scene, std::uint32_t count) {
+    const Bounds bounds = bounds_of(scene);
+    if (!(bounds.radius_m > 0.0f && std::isfinite(bounds.radius_m))) return {};
+    const std::size_t light_count = scene.lamps().size() + scene.triangle_lights().size();
+    const Rgb world = scene.has_world() ? scene.world() : Rgb(0.0f);
+    const Rgb world_power = world * (pi<float> * 4.0f * pi<float> * sqr(bounds.radius_m));
+    std::vector<double> powers;
+    for (std::size_t i = 0; i < light_count; ++i)
+        powers.push_back(static_cast<double>(power_of(scene.light(i), bounds)));
+    powers.push_back(static_cast<double>(mean_component(abs(world_power))));
+    const double all = std::accumulate(powers.begin(), powers.end(), 0.0);
+    if (!(all > 0.0)) return {};
+    std::vector<Photon> photons;
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+        const auto own = static_cast<std::uint32_t>(std::ceil(powers[i] / all * static_cast<double>(count)));
+        if (!(powers[i] > 0.0)) continue;
+        const std::uint32_t seed = hash(photon_seed, static_cast<std::uint32_t>(i));
+        for (std::uint32_t k = 0; k < own; ++k) {
+            const Sampler sampler{seed, k};
+            const Vec2f u_direction = sampler.point(emission_direction), u_place = sampler.point(emission_place);
+            const float share = 1.0f / static_cast<float>(own);
+            if (i < light_count) {
+                const auto [ray, power] = std::visit(Emitter{bounds, u_direction, u_place}, scene.light(i));
+                photons.push_back({ray, power * share, sampler});
+            } else {
+                const Vec3f from = sample(Cap<float>{Vec3f(0.0f, 0.0f, 1.0f), 2.0f}, u_direction);
+                photons.push_back({ray_from_far(bounds, from, u_place), world_power * share, sampler});
+            }
+        }
+    }
+    return photons;
+}
+
+struct Deposits {
+    std::vector<LightDeposit> diffuse, glossy;
+};
+
+bool carries_light(const Rgb& power) { return max_component(abs(power)) > 0.0f; }
+
+/// Where an object's cells lie: its own space, as large as it stands in the world.
+class CellSpace {
+   public:
+    explicit CellSpace(const Transform& world_from_object) {
+        if (!world_from_object.is_invertible()) return;
+        object_from_world_ = world_from_object.inverse();
+        scale_ = std::cbrt(std::abs(
+            dot(world_from_object.linear[0], cross(world_from_object.linear[1], world_from_object.linear[2]))));
+        axis_from_world_ = glm::transpose(world_from_object.linear);
+    }
+    LightDeposit deposit(std::uint32_t id, std::uint32_t owner, const LightPlace& place, const Vec3f& axis,
+                         const Rgb& power_w) const {
+        return {place,
+                axis,
+                power_w,
+                id,
+                owner,
+                object_from_world_.point(place.position) * scale_,
+                normalize(axis_from_world_ * axis)};
+    }
+
+   private:
+    Transform object_from_world_{};
+    Mat3<float> axis_from_world_{1.0f};
+    float scale_ = 1.0f;
+};
+
+/// What one base of a surface sends on: its diffuse part towards everywhere, and its glossy one towards a few
+/// directions that its lobe chooses.
+void deposit_base(const Base& base, const SurfacePoint& point, const Photon& photon, std::uint32_t owner,
+                  const CellSpace& cells, std::uint32_t bounce, Deposits& deposits) {
+    const Vec3f& normal = point.frame.z;
+    const LightPlace place{point.position, point.normal_geometric};
+    const std::uint32_t id = hash(hash(photon.sampler.pixel_seed, photon.sampler.sample), bounce);
+    if (const Rgb power = base.diffuse * photon.power_w; base.has_diffuse() && carries_light(power))
+        deposits.diffuse.push_back(cells.deposit(id, owner, place, normal, power));
+    if (!base.has_glossy()) return;
+    // Each direction stands for a part of the lobe: one alone would shine without bound.
+    const float concentration = 1.0f - 1.0f / (8.0f * ggx_lobe(base.alpha, base.wo_local).sharpness + 1.0f);
+    for (std::uint32_t k = 0; k < directions_per_reflection; ++k) {
+        const std::uint32_t dimension = bounce_first + bounce * dimensions_per_bounce + 2;
+        const Vec2f u =
+            Sampler{photon.sampler.pixel_seed, photon.sampler.sample * directions_per_reflection + k}.point(dimension);
+        const Vec3f wi_local = ggx_sample(base.wo_local, base.alpha, base.alpha, u);
+        const Vec3f wi = point.frame.to_world(wi_local);
+        if (!(wi_local.z > 0.0f) || !point.faces(wi)) continue;
+        const float pdf = ggx_pdf_omega(base.wo_local, wi_local, base.alpha, base.alpha);
+        const Rgb share = eval_glossy(base, wi_local) / (pdf * static_cast<float>(directions_per_reflection));
+        if (const Rgb power = share * photon.power_w; pdf > 0.0f && carries_light(power))
+            deposits.glossy.push_back(cells.deposit(hash(id, k), owner, place, wi * concentration, power));
+    }
+}
+
+/// The point as it is seen from behind.
+SurfacePoint turned_over(const SurfacePoint& point) {
+    SurfacePoint back = point;
+    back.normal_geometric = -point.normal_geometric;
+    back.frame = {point.frame.x, -point.frame.y, -point.frame.z};
+    back.front = -point.front;
+    return back;
+}
+
+void deposit(const Surface& surface, const SurfacePoint& point, const Photon& photon, std::uint32_t owner,
+             const CellSpace& cells, std::uint32_t bounce, Deposits& deposits) {
+    deposit_base(surface, point, photon, owner, cells, bounce, deposits);
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
+        deposit_base(lobe.closed_form(surface.wo_local), L::transmits ? turned_over(point) : point, photon, owner,
+                     cells, bounce, deposits);
+    });
+}
+
+/// The photon after a reflection; nothing where it carries no light.
+std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& point, const Photon& photon,
+                                std::uint32_t bounce) {
+    const std::uint32_t dimension = bounce_first + bounce * dimensions_per_bounce;
+    const Vec3f wi_local = sample(surface, photon.sampler.point(dimension).x, photon.sampler.point(dimension + 1));
+    const float pdf = pdf_omega(surface, wi_local);
+    if (!(pdf > 0.0f)) return std::nullopt;
+    const Vec3f wi = point.frame.to_world(wi_local);
+    const Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
+    const bool is_open = point.faces(wi) || (surface.transmits() && point.faces(-wi));
+    if (!carries_light(power) || !is_open) return std::nullopt;
+    return Photon{{point.ray_origin(wi), wi}, power, photon.sampler};
+}
+
+/// Follows photons from surface to surface.
+void trace(const Scene& scene, std::vector<Photon> photons, std::uint32_t bounces, Deposits& deposits) {
+    ProgramMemory memory;
+    for (std::uint32_t bounce = 0; bounce < bounces && !photons.empty(); ++bounce) {
+        std::vector<Ray> rays;
+        for (const Photon& photon : photons) rays.push_back(photon.ray);
+        std::vector<std::optional<RayHit>> hits(rays.size());
+        scene.intersect(rays, visible_to_light, hits);
+        std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the photon of each
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            if (hits[i])
+                arrivals.push_back({{.direction = rays[i].direction,
+                                     .hit = *hits[i],
+                                     .material = scene.material_of(*hits[i]),
+                                     .footprint_m = 0.0f,
+                                     .ray_kind = diffuse_ray},
+                                    i});
+        std::ranges::stable_sort(arrivals, {}, [&](const auto& a) { return a.first.material; });
+        std::vector<const Arrival*> ordered;
+        for (const auto& a : arrivals) ordered.push_back(&a.first);
+        std::vector<Photon> further;
+        for (std::size_t first = 0; first < ordered.size();) {
+            const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
+            const std::size_t count = batch_count(scene, rest);
+            const ArrivalBatch batch = make_arrivals(scene, rest.first(count), bounce + 1, memory);
+            const auto points = unpack<SurfacePointOf>(batch.point);
+            const auto surfaces = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
+            for (std::size_t i = 0; i < count; ++i) {
+                const Photon& photon = photons[arrivals[first + i].second];
+                const std::uint32_t owner = rest[i]->hit.instance;
+                const CellSpace cells(scene.world_from_object(owner));
+                deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits);
+                if (bounce + 1 == bounces) continue;
+                if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
+            }
+            first += count;
+        }
+        photons = std::move(further);
+    }
+}
+
+void append(std::vector<LightDeposit>& to, const std::vector<LightDeposit>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+std::size_t leaf_count(const VirtualLightTree& tree) {
+    return static_cast<std::size_t>(std::ranges::count(tree, 0u, &VirtualLight::child_count));
+}
+
+}  // namespace
+
+VirtualLights trace_virtual_lights(const Scene& scene, const RenderSettings& settings) {
+    const auto start = std::chrono::steady_clock::now();
+    VirtualLights result;
+    if (settings.max_bounces == 0) return result;
+    const std::vector<Photon> photons = emit(scene, settings.virtual_lights * photons_per_light);
+    constexpr std::size_t chunk = 512;
+    std::vector<Deposits> parts((photons.size() + chunk - 1) / chunk);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        const auto own = std::span(photons).subspan(i * chunk, std::min(chunk, photons.size() - i * chunk));
+        trace(scene, {own.begin(), own.end()}, settings.max_bounces, parts[i]);
+    });
+    Deposits deposits;
+    for (const Deposits& part : parts) {
+        append(deposits.diffuse, part.diffuse);
+        append(deposits.glossy, part.glossy);
+    }
+    result.diffuse = build_virtual_lights(deposits.diffuse, settings.virtual_lights);
+    result.glossy = build_virtual_lights(deposits.glossy, settings.virtual_lights);
+    result.light_count = leaf_count(result.diffuse) + leaf_count(result.glossy);
+    result.photon_count = photons.size();
+    result.build_s = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace pivot

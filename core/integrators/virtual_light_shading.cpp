@@ -1,0 +1,361 @@
+#include "core/integrators/virtual_light_shading.h"
+
+#include "core/sampling/sobol.h"
+#include "core/shading/ggx_gaussian_light.h"
+
+namespace pivot {
+namespace {
+
+/// Lights are seen as one where the variance of the directions that they come from is below this, in rad^2.
+constexpr float largest_variance = 0.005f;
+/// Or below this part of a lobe's own, and of the squared angle between it and them.
+constexpr float part_of_lobe = 0.2f, part_of_distance = 0.1f;
+/// What of all its light a light gives a point: from where on its error counts, it is worth caps, and a ray.
+constexpr float share_to_open = 0.005f, share_for_caps = 0.004f, share_for_rays = 0.002f;
+/// And for a first look at how much light there is.
+constexpr float rough_variance = 0.3f;
+/// No light seems smaller than this, rad^2: sharpness has an end.
+constexpr float least_variance = 1e-7f;
+
+/// A light of the cut, with what each lane reflects of one watt of it.
+struct CutLight {
+    const VirtualLight* light;
+    SphericalGaussian<Batch> seen;  ///< in the shading frame
+    Batch scale;                    ///< of its radiance
+    Batch diffuse;
+    LobeSums<Batch> glossy;
+    Batch visible = Batch(1.0f);
+    Batch glossy_error = Batch(0.0f);
+};
+
+/// The mean of the clamped cosine to axes about one at cosine z, of that variance: algebraic, and finite at all.
+Batch mean_clamped_cosine(const Batch& z, const Batch& variance) {
+    const Batch one(1.0f), spread = Batch(2.0f / pi<float>) * variance;
+    const Batch c = z * inverse(one + variance), tail = spread * inverse(one + Batch(4.0f) * spread);
+    return Batch(0.5f) * (c + sqrt(c * c + tail));
+}
+
+Batch smoothstep(const Batch& x) {
+    const Batch t = clamp01(x);
+    return t * t * (Batch(3.0f) - Batch(2.0f) * t);
+}
+
+class LightCut {
+   public:
+    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t sample_index)
+        : batch_(batch),
+          budget_(budget_of(settings)),
+          method_(settings.virtual_light_method),
+          sample_index_(sample_index) {
+        if (batch.has_glossy) receiver_.emplace(batch.lobe);
+        for (std::size_t i = 0; i < batch_size; ++i) normals_[i] = batch.lanes[i]->surface.bump.normal;
+        normal_ = gather_vector([&](std::size_t i) { return normals_[i]; });
+        normal_geometric_ = gather_vector([&](std::size_t i) { return batch.lanes[i]->point.normal_geometric; });
+        const auto mean_f = [](const Base& s) {
+            return s.has_glossy() ? mean_component(s.fresnel.schlick_f0 + s.fresnel.dielectric_f0) : 0.0f;
+        };
+        glossy_weight_ = gather([&](std::size_t i) { return mean_f(batch.lanes[i]->surface); });
+        diffuse_weight_ = gather([&](std::size_t i) { return mean_component(batch.lanes[i]->surface.diffuse); });
+        size_ = glossy_weight_ + diffuse_weight_;
+    }
+
+    /// Cuts both trees: roughly, for about how much light there is in all, and then as that says.
+    void cut(const VirtualLights& lights) {
+        const Batch one(1.0f);
+        const auto in_both = [&](const auto& of_tree) {
+            if (!lights.diffuse.empty()) of_tree(lights.diffuse, false);
+            if (!lights.glossy.empty()) of_tree(lights.glossy, true);
+        };
+        total_ = Batch(0.0f);
+        Batch sum(0.0f);
+        in_both([&](const VirtualLightTree& tree, bool is_glossy) {
+            cut_tree(
+                tree, tree[0], is_glossy, one, [&](const VirtualLight&, const View&) { return Batch(rough_variance); },
+                [&](const VirtualLight& light, const View& view, const Batch& weight) {
+                    sum += weight * estimate(light, is_glossy, view);
+                });
+        });
+        total_ = sum;
+        in_both([&](const VirtualLightTree& tree, bool is_glossy) {
+            cut_tree(
+                tree, tree[0], is_glossy, one,
+                [&](const VirtualLight& light, const View& view) { return allowed_variance(light, is_glossy, view); },
+                [&](const VirtualLight& light, const View& view, const Batch& weight) {
+                    add(light, is_glossy, view, weight);
+                });
+        });
+    }
+
+    /// What both lobes reflect of each light, the better the more it is of all.
+    void refine() {
+        Batch total(0.0f);
+        for (const CutLight& cut : cut_) total += size_of(cut);
+        total_ = total;
+        if (!receiver_ || method_ != VirtualLightMethod::automatic) return;
+        const Batch least = Batch(share_for_caps) * total;
+        for (CutLight& cut : cut_) {
+            const BatchMask wide = is_wide(*receiver_, cut.seen);
+            const BatchMask matters = !wide && glossy_size_of(cut) > least && least > Batch(0.0f);
+            if (!any(matters)) continue;
+            const LobeSums<Batch> caps = integrate_by_caps(*receiver_, cut.seen, budget_) * cut.scale;
+            cut.glossy = select<Batch>(matters, caps, cut.glossy);
+            cut.glossy_error = select(matters, Batch(error_of_gaussian_caps), cut.glossy_error);
+        }
+    }
+
+    /// One shadow ray to each light that matters; the rest is seen as these are in the mean.
+    void trace(const Scene& scene) {
+        const Batch zero(0.0f);
+        Batch seen(0.0f), all(0.0f);
+        std::vector<BatchMask> asked(cut_.size());
+        const Batch error_m = gather([&](std::size_t i) { return batch_.lanes[i]->point.error_m; });
+        const Vec3b origin = batch_.position + normal_geometric_ * error_m;
+        for (std::size_t k = 0; k < cut_.size(); ++k) {
+            CutLight& cut = cut_[k];
+            const Batch size = size_of(cut);
+            asked[k] = size > Batch(share_for_rays) * total_ && first_lanes(batch_.count);
+            if (!any(asked[k])) continue;
+            const PlaceInView place = place_in_view(*cut.light, asked[k]);
+            const RayOf<Batch> rays{origin, place.wi, zero,
+                                    select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+            // Light from places that are all behind the surface comes through it.
+            cut.visible = select(place.is_faced, scene.visibility(rays), zero);
+            seen += select(asked[k], size * cut.visible, zero);
+            all += select(asked[k], size, zero);
+        }
+        const Batch mean = select(all > zero, seen / max(all, tiny<Batch>), Batch(1.0f));
+        for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, mean);
+    }
+
+    IndirectReflection result() const {
+        std::array<Batch, 3> diffuse;
+        std::array<LobeSums<Batch>, 3> glossy;
+        diffuse.fill(Batch(0.0f));
+        Batch error(0.0f);
+        for (const CutLight& cut : cut_) {
+            for (int c = 0; c < 3; ++c) {
+                const auto channel = static_cast<std::size_t>(c);
+                const Batch power = Batch(cut.light->power_w[c]) * cut.visible;
+                diffuse[channel] += power * cut.diffuse;
+                glossy[channel] += cut.glossy * power;
+            }
+            error += cut.visible *
+                     (glossy_size_of(cut) * cut.glossy_error + Batch(0.02f) * (size_of(cut) - glossy_size_of(cut)));
+        }
+        IndirectReflection result;
+        result.error = store(error);
+        for (int c = 0; c < 3; ++c) {
+            const auto channel = static_cast<std::size_t>(c);
+            const Lanes d = store(diffuse[channel]), plain = store(glossy[channel].plain),
+                        schlick = store(glossy[channel].schlick), dielectric = store(glossy[channel].dielectric);
+            for (std::size_t i = 0; i < batch_.count; ++i) {
+                const Base& surface = batch_.lanes[i]->surface;
+                const LobeFresnel& f = surface.fresnel;
+                float sum = surface.diffuse[c] * d[i] / pi<float>;
+                if (surface.has_glossy())
+                    sum += f.schlick_f0[c] * plain[i] + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick[i] +
+                           f.dielectric_f0[c] * plain[i] + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric[i];
+                result.radiance[i][c] = sum;
+            }
+        }
+        return result;
+    }
+
+   private:
+    struct PlaceInView {
+        Vec3b wi;  ///< world
+        Batch distance_m;
+        BatchMask is_faced;
+    };
+
+    /// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
+    /// that does.
+    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted) const {
+        PlaceInView result;
+        for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
+            const LightPlace& place = light.places[(sample_index_ + i) % VirtualLight::place_count];
+            const Vec3b to_place = broadcast(place.position) - batch_.position;
+            const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
+            const Vec3b wi = to_place * inverse(distance);
+            const BatchMask faced = dot(wi, normal_geometric_) > Batch(0.0f) && dot(wi, batch_.frame.z) > Batch(0.0f) &&
+                                    dot(wi, broadcast(place.normal)) < Batch(0.0f);
+            if (i == 0) {
+                result = {wi, distance, faced};
+            } else {
+                const BatchMask better = faced && !result.is_faced;
+                result = {select(better, wi, result.wi), select(better, distance, result.distance_m),
+                          result.is_faced || faced};
+            }
+            if (!any(wanted && !result.is_faced)) break;
+        }
+        return result;
+    }
+
+    Batch glossy_size_of(const CutLight& cut) const {
+        return cut.glossy.plain * glossy_weight_ * Batch(mean_component(abs(cut.light->power_w)));
+    }
+    Batch size_of(const CutLight& cut) const {
+        return glossy_size_of(cut) +
+               cut.diffuse * diffuse_weight_ * Batch(mean_component(abs(cut.light->power_w)) / pi<float>);
+    }
+    /// How lights, or those below them, lie about each lane.
+    struct View {
+        Vec3b towards;  ///< world
+        Vec3b wi;       ///< in the shading frame
+        Batch distance2, variance;
+        Batch facing;  ///< cosine from their axis
+        Batch reach;   ///< tangent of the angle that all are within
+    };
+
+    View view_of(const VirtualLight& light) const {
+        const Vec3b to_mean = broadcast(light.mean) - batch_.position;
+        const Batch distance2 = max(dot(to_mean, to_mean), Batch(1e-20f)), inverse_distance = inverse_sqrt(distance2);
+        const Vec3b towards = to_mean * inverse_distance;
+        return {towards,
+                batch_.frame.to_local(towards),
+                distance2,
+                Batch(light.variance_m2) * inverse_distance * inverse_distance,
+                -dot(towards, broadcast(light.axis)),
+                Batch(light.bound_m) * inverse_distance};
+    }
+
+    /// Whether none of a light, nor those below it, shine at any lane.
+    bool is_dark(const VirtualLight& light, bool is_glossy, const View& view) const {
+        const Batch zero(0.0f);
+        BatchMask lit = view.wi.z + view.reach > zero && size_ > zero;
+        if (is_glossy) {
+            // exp(-15) of the peak, from the nearest of them
+            const Batch gap = sqrt(max(Batch(2.0f) - Batch(2.0f) * view.facing, zero)) - view.reach;
+            lit = lit && Batch(0.5f * light.sharpness) * sqr(max(gap, zero)) < Batch(15.0f);
+        } else if (light.sharpness > 1e4f) {
+            const Batch height = -dot(view.towards, broadcast(light.axis)) * sqrt(view.distance2);
+            lit = lit && height > Batch(light.lowest_m + 1e-3f * std::sqrt(light.variance_m2));
+        } else {
+            lit = lit && view.facing + view.reach + Batch(3.0f / std::sqrt(std::max(light.sharpness, 1e-3f))) > zero;
+        }
+        return !any(lit);
+    }
+
+    /// About the most that lights reflect.
+    Batch estimate(const VirtualLight& light, bool is_glossy, const View& view) const {
+        const Batch one(1.0f), zero(0.0f), deviation = sqrt(view.variance);
+        Batch emitted;
+        if (is_glossy) {
+            const Batch width = inverse(Batch(1.0f / std::max(light.sharpness, 0.1f)) + view.variance);
+            emitted = Batch(light.sharpness / (2.0f * pi<float>)) * exp(width * (view.facing - one));
+        } else {
+            const Batch spread(1.0f / std::sqrt(std::max(light.sharpness, 1.0f)));
+            emitted = Batch(1.0f / pi<float>) * clamp01(view.facing + deviation + spread);
+        }
+        Batch reflected = Batch(1.0f / pi<float>) * diffuse_weight_ * clamp01(view.wi.z + deviation);
+        if (receiver_) {
+            const Vec3b& wo = batch_.lobe.wo_local;
+            const Batch apart2 = length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));
+            const Batch width = inverse(inverse(receiver_->sharpness) + view.variance);
+            // GGX's tails are longer than a Gaussian's.
+            reflected +=
+                glossy_weight_ * width * Batch(0.5f / pi<float>) * inverse(sqr(one + Batch(0.25f) * width * apart2));
+        }
+        return select(size_ > zero,
+                      Batch(mean_component(abs(light.power_w))) * emitted * reflected *
+                          inverse(view.distance2 * (one + view.variance)),
+                      zero);
+    }
+
+    /// The variance of directions up to which lights may be taken together.
+    Batch allowed_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
+        Batch allowed(largest_variance);
+        if (receiver_) {
+            const Vec3b& wo = batch_.lobe.wo_local;
+            const Batch apart2 = length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));
+            const Batch of_lobe =
+                Batch(part_of_lobe) * inverse(receiver_->sharpness) + Batch(part_of_distance) * apart2;
+            allowed = select(glossy_weight_ > Batch(0.0f), min(allowed, of_lobe), allowed);
+        }
+        if (is_glossy) {
+            // Further from where they shine than their axes reach, all give nothing.
+            const Batch apart2 = Batch(2.0f) - Batch(2.0f) * view.facing;
+            const Batch beyond = max(apart2 - Batch(8.0f / std::max(light.sharpness, 1e-3f)), Batch(0.0f));
+            allowed = min(allowed, Batch(part_of_lobe / light.lobe_sharpness) + Batch(part_of_distance) * beyond);
+        }
+        // What is little of all may be off by more.
+        const Batch little =
+            Batch(share_to_open) * total_ * inverse(max(estimate(light, is_glossy, view), tiny<Batch>));
+        return allowed * max(Batch(1.0f), little);
+    }
+
+    /// visit(light, view, weight): each light of a cut, and how much it counts in each lane.
+    template <class Allowed, class Visit>
+    void cut_tree(const VirtualLightTree& tree, const VirtualLight& light, bool is_glossy, const Batch& weight,
+                  const Allowed& allowed, const Visit& visit) const {
+        const Batch zero(0.0f), one(1.0f);
+        const View view = view_of(light);
+        if (is_dark(light, is_glossy, view)) return;
+        Batch together = weight;
+        if (light.child_count > 0) {
+            const Batch apart = smoothstep(Batch(2.0f) * view.variance * inverse(allowed(light, view)) - one);
+            together = weight * (one - apart);
+            const Batch below = weight * apart;
+            if (any(below > zero))
+                for (std::uint32_t i = 0; i < light.child_count; ++i)
+                    cut_tree(tree, tree[light.first_child + i], is_glossy, below, allowed, visit);
+        }
+        if (any(together > zero)) visit(light, view, together);
+    }
+
+    void add(const VirtualLight& light, bool is_glossy, const View& view, const Batch& weight) {
+        const Batch zero(0.0f);
+        const Batch variance = max(view.variance, Batch(least_variance));
+        SphericalGaussian<Batch> seen{view.wi, inverse(variance), zero};
+        Batch scale = weight * inverse(Batch(2.0f * pi<float>) * max(variance * view.distance2, Batch(1e-20f)));
+        if (is_glossy) {
+            const Vec3b axis = batch_.frame.to_local(broadcast(-light.axis));
+            seen = product(seen, SphericalGaussian<Batch>{axis, Batch(light.sharpness), zero});
+            scale *= Batch(1.0f / gaussian_solid_angle(light.sharpness)) * exp(seen.log_amplitude);
+            seen.log_amplitude = zero;
+        } else {
+            scale *= mean_clamped_cosine(view.facing, Batch(1.0f / std::max(light.sharpness, 0.1f))) *
+                     Batch(1.0f / pi<float>);
+        }
+        CutLight cut{&light, seen, scale, zero, {}};
+        if (batch_.has_diffuse)
+            cut.diffuse =
+                scale * integrate(seen) * mean_clamped_cosine(dot(seen.axis, normal_), inverse(seen.sharpness));
+        if (receiver_) {
+            const bool all_alike = method_ != VirtualLightMethod::automatic;
+            const BatchMask wide = all_alike ? zero > zero : is_wide(*receiver_, seen);
+            if (any(wide)) cut.glossy = integrate_by_points(*receiver_, seen) * scale;
+            if (any(!wide)) cut.glossy = select<Batch>(wide, cut.glossy, integrate_widened(*receiver_, seen) * scale);
+            cut.glossy_error = select(wide, Batch(error_of_gaussian_points), Batch(error_of_widened_lobe));
+        }
+        if (method_ == VirtualLightMethod::anisotropic) {
+            cut.diffuse = scale * irradiance_vsgl(seen, dot(seen.axis, normal_));
+            if (receiver_) cut.glossy = integrate_anisotropic(*receiver_, seen) * scale;
+        }
+        if (any(size_of(cut) > zero)) cut_.push_back(cut);
+    }
+
+    const SurfaceBatch& batch_;
+    Batch budget_;
+    VirtualLightMethod method_;
+    std::uint32_t sample_index_;
+    std::optional<GgxGaussianReceiver<Batch>> receiver_;
+    std::array<Vec3f, batch_size> normals_;
+    Vec3b normal_, normal_geometric_;
+    Batch glossy_weight_, diffuse_weight_, size_, total_;
+    std::vector<CutLight> cut_;
+};
+
+}  // namespace
+
+IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                          const VirtualLights& lights, const SurfaceBatch& batch,
+                                          std::uint32_t sample_index) {
+    LightCut cut(batch, settings, sample_index);
+    cut.cut(lights);
+    cut.refine();
+    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
+    return cut.result();
+}
+
+}  // namespace pivot

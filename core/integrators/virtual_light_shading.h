@@ -1,0 +1,24 @@
+// What surfaces reflect of virtual lights: a cut through their trees for each point, each light of it in closed form
+// over both lobes, and fixed shadow rays.
+//
+// Lights together stand for those below them where they look small; between that and where they do not, both count in
+// part, so that nothing jumps from one point to the next.
+#pragma once
+
+#include "core/integrators/surface_batch.h"
+#include "core/lights/virtual_lights.h"
+#include "core/scene/scene.h"
+
+namespace pivot {
+
+/// Of each lane.
+struct IndirectReflection {
+    std::array<Rgb, batch_size> radiance{};
+    Lanes error{};  ///< predicted for the closed forms, as radiance
+};
+
+IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                          const VirtualLights& lights, const SurfaceBatch& batch,
+                                          std::uint32_t sample_index);
+
+}  // namespace pivot

@@ -1,0 +1,69 @@
+// Virtual spherical Gaussian lights: what surfaces send on of light that came to them, summed up in cells that ride on
+// the objects. A light is a Gaussian of places that shines like a clamped cosine about a normal, or like a Gaussian of
+// directions about a reflection; trees of them stand for many by the same sums.
+//   [Tokuyoshi15] "Virtual Spherical Gaussian Lights for Real-time Glossy Indirect Illumination"
+//   [Banerjee05]  "Clustering on the Unit Hypersphere using von Mises-Fisher Distributions"
+//
+// A deposit of light goes to the cells around it by weights that rise and fall linearly, to one of six directions by
+// the squares of its axis, and to two sizes of cell by how far apart the lights are to be: each adds up to 1, so that
+// no light is lost, and none jumps as it moves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/vector.h"
+
+namespace pivot {
+
+/// A place of a surface, world space, and the side of it that shines.
+struct LightPlace {
+    Vec3f position, normal;
+};
+
+/// Light that a surface sends on from a place.
+struct LightDeposit {
+    LightPlace place;
+    Vec3f axis;  ///< world: the normal of a diffuse lobe; a direction that a glossy one reflects to, its length the
+                 ///< mean vector's of the part of the lobe that it stands for
+    Rgb power_w;
+    std::uint32_t id;     ///< a number of its own, the same while it moves
+    std::uint32_t owner;  ///< an object: cells hold the light of one
+    Vec3f cell_position;  ///< in its own space, metres
+    Vec3f cell_axis;      ///< likewise, unit
+};
+
+/// Lights together, or one: the leaf of a tree has no children.
+struct VirtualLight {
+    static constexpr std::size_t place_count = 4;
+
+    Vec3f mean;
+    float variance_m2;     ///< of places, about the mean across any line of sight
+    Vec3f axis;            ///< unit
+    float sharpness;       ///< of the Gaussian of axes
+    float lobe_sharpness;  ///< and of those of the leaves below, in the mean
+    float bound_m;         ///< no leaf's mean, and little of its light, is further from the mean
+    float lowest_m;        ///< of the leaves' means, along the axis from the mean
+    Rgb power_w;
+    std::uint32_t first_child = 0, child_count = 0;
+    std::array<LightPlace, place_count> places;  ///< spread as its light is: where shadow rays end
+};
+
+/// A tree of lights, the root first; empty where there is no light.
+using VirtualLightTree = std::vector<VirtualLight>;
+
+struct VirtualLights {
+    VirtualLightTree diffuse, glossy;
+    std::size_t light_count = 0;  ///< leaves of both
+    std::size_t photon_count = 0;
+    float build_s = 0.0f;
+
+    bool is_empty() const { return diffuse.empty() && glossy.empty(); }
+};
+
+/// About so many cells of light, as the deposits' places fill them.
+VirtualLightTree build_virtual_lights(std::span<const LightDeposit> deposits, std::size_t cell_count);
+
+}  // namespace pivot
