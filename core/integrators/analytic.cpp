@@ -179,14 +179,13 @@ void add_virtual_lights(const Scene& scene, const RenderSettings& settings, cons
 }
 
 void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                 const VirtualLights& virtual_lights, std::uint32_t sample_index,
-                 std::span<const ShadingPoint> shading, std::span<Gathered> gathered) {
+                 const VirtualLights& virtual_lights, std::uint32_t sample_index, std::span<const ShadingPoint> shading,
+                 std::span<Gathered> gathered) {
     const SurfaceBatch batch = make_batch(shading);
     if (!batch.has_diffuse && !batch.has_glossy) return;
     Unhidden light = unhidden_light(scene, settings, batch);
     add_lamps(scene, settings, points, batch, light, gathered);
-    if (!virtual_lights.is_empty())
-        add_virtual_lights(scene, settings, virtual_lights, sample_index, batch, gathered);
+    if (!virtual_lights.is_empty()) add_virtual_lights(scene, settings, virtual_lights, sample_index, batch, gathered);
     if (!scene.has_world()) return;
     for (std::size_t i = 0; i < shading.size(); ++i) {
         WorldReflection world = light.world[i];

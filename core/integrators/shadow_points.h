@@ -4,8 +4,8 @@
 // Evenly spread points are off by sqrt(s (1 - s)) n^(-3/4) where an edge hides 1 - s of a light. So for a light that
 // gives some share of a pixel's light, (share sqrt(s (1 - s)) / budget)^(4/3) points keep a penumbra's steps below the
 // error budget. The samples of a pixel take these together, each a part. A pixel's only sample asks half of its points
-// of every light first, and some on the light's rim, and goes on where these disagree. Samples that have few points each
-// ask all of them: to go on by what so few say, and to believe them where they agree, would shift a penumbra.
+// of every light first, and some on the light's rim, and goes on where these disagree. Samples that have few points
+// each ask all of them: to go on by what so few say, and to believe them where they agree, would shift a penumbra.
 #pragma once
 
 #include <functional>
