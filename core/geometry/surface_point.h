@@ -29,6 +29,16 @@ struct SurfacePointOf {
 
 using SurfacePoint = SurfacePointOf<float>;
 
+/// The point as it is lit from behind, for lobes that send light through: nothing but a Lambert lobe is seen by way of
+/// it, so that wo_local stays.
+inline SurfacePoint turned_over(const SurfacePoint& point) {
+    SurfacePoint back = point;
+    back.normal_geometric = -point.normal_geometric;
+    back.frame = {point.frame.x, -point.frame.y, -point.frame.z};
+    back.front = -point.front;
+    return back;
+}
+
 /// The triangle that a ray hit, in object space.
 template <class T>
 struct HitTriangleOf {

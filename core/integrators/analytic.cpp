@@ -200,15 +200,6 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Shado
     }
 }
 
-/// The point as it is lit from behind. Nothing but a Lambert lobe is seen by way of it: wo_local stays.
-SurfacePoint turned_over(const SurfacePoint& point) {
-    SurfacePoint back = point;
-    back.normal_geometric = -point.normal_geometric;
-    back.frame = {point.frame.x, -point.frame.y, -point.frame.z};
-    back.front = -point.front;
-    return back;
-}
-
 /// A hit surface, for the sample of this index.
 struct HitSurface {
     std::size_t sample;

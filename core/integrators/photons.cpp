@@ -191,15 +191,6 @@ void deposit_base(const Base& base, const SurfacePoint& point, const Photon& pho
     }
 }
 
-/// The point as it is seen from behind.
-SurfacePoint turned_over(const SurfacePoint& point) {
-    SurfacePoint back = point;
-    back.normal_geometric = -point.normal_geometric;
-    back.frame = {point.frame.x, -point.frame.y, -point.frame.z};
-    back.front = -point.front;
-    return back;
-}
-
 void deposit(const Surface& surface, const SurfacePoint& point, const Photon& photon, std::uint32_t owner,
              const CellSpace& cells, std::uint32_t bounce, Deposits& deposits) {
     deposit_base(surface, point, photon, owner, cells, bounce, deposits);
