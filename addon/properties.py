@@ -46,19 +46,45 @@ PHASES = (
 )
 
 
+def _settings_changed(_: PivotSettings, context: bpy.types.Context) -> None:
+    """Blender draws 3D views anew for its own properties only, and would leave a script's change unseen."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
 class PivotSettings(bpy.types.PropertyGroup):
-    integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO")
-    samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, soft_max=4096, max=1 << 20)
+    integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO", update=_settings_changed)
+    samples: IntProperty(
+        name="Samples",
+        description="Samples per pixel",
+        default=64,
+        min=1,
+        soft_max=4096,
+        max=1 << 20,
+        update=_settings_changed,
+    )
     adaptive: BoolProperty(
         name="Adaptive",
         description="Put samples where they help most, at most so many in a pixel, until the picture meets the budget",
         default=False,
+        update=_settings_changed,
     )
     seed: IntProperty(
-        name="Seed", description="The same seed gives the same picture on the same machine", default=0, min=0
+        name="Seed",
+        description="The same seed gives the same picture on the same machine",
+        default=0,
+        min=0,
+        update=_settings_changed,
     )
     max_bounces: IntProperty(
-        name="Max Bounces", description="Bounces of indirect light; 0 is direct light only", default=4, min=0, max=1024
+        name="Max Bounces",
+        description="Bounces of indirect light; 0 is direct light only",
+        default=4,
+        min=0,
+        max=1024,
+        update=_settings_changed,
     )
     clamp_indirect: FloatProperty(
         name="Clamp Indirect",
@@ -69,6 +95,7 @@ class PivotSettings(bpy.types.PropertyGroup):
         default=0.0,
         min=0.0,
         soft_max=100.0,
+        update=_settings_changed,
     )
     filter_glossy: FloatProperty(
         name="Filter Glossy",
@@ -79,12 +106,14 @@ class PivotSettings(bpy.types.PropertyGroup):
         default=0.0,
         min=0.0,
         soft_max=10.0,
+        update=_settings_changed,
     )
     light_sampling: EnumProperty(
         name="Light Sampling",
         description="How rays towards the lights are chosen; every choice converges to one picture",
         items=LIGHT_SAMPLING,
         default="JOINT",
+        update=_settings_changed,
     )
     error_budget: FloatProperty(
         name="Error Budget",
@@ -96,24 +125,28 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=0.01,
         max=100.0,
         subtype="PERCENTAGE",
+        update=_settings_changed,
     )
     analytic_method: EnumProperty(
         name="Method",
         description="How glossy materials are integrated over lights",
         items=ANALYTIC_METHODS,
         default="AUTO",
+        update=_settings_changed,
     )
     occlusion: EnumProperty(
         name="Occlusion",
         description="How shadows are found",
         items=OCCLUSIONS,
         default="RAY_TRACED",
+        update=_settings_changed,
     )
     indirect: EnumProperty(
         name="Indirect Light",
         description="What is shown of light that comes by way of other surfaces, as often as Max Bounces says",
         items=INDIRECT,
         default="NONE",
+        update=_settings_changed,
     )
     virtual_lights: IntProperty(
         name="Virtual Lights",
@@ -122,6 +155,7 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=1,
         soft_max=65536,
         max=1 << 20,
+        update=_settings_changed,
     )
     time_limit: FloatProperty(
         name="Time Limit",
@@ -130,6 +164,7 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=0.0,
         subtype="TIME_ABSOLUTE",
         unit="TIME_ABSOLUTE",
+        update=_settings_changed,
     )
 
 

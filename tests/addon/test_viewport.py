@@ -30,7 +30,7 @@ def in_a_window(script: str, folder: Path) -> Any:
 
 
 def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
-    _, red, green, blue, red_again, analytic, _, lit, *_ = in_a_window("viewport_case", tmp_path)
+    red, green, blue, red_again, analytic, lit = in_a_window("viewport_case", tmp_path)
     np.testing.assert_array_equal(
         np.round([red, green, blue, red_again, analytic, lit]), [*np.eye(3), *[(1, 0, 0)] * 2, (0, 1, 0)]
     )

@@ -106,7 +106,7 @@ def steps() -> Iterator[int]:
     window.scene.pivot.integrator = "ANALYTIC"
     yield 0
     hide_the_sun(window.scene)
-    yield -1
+    yield from [-1] * 4  # until it rests: what a script sets then is to be seen as well
     window.scene.pivot.occlusion = "NONE"
     yield 1
     # Every panel is drawn once; one that fails prints a traceback.
@@ -136,7 +136,8 @@ def run() -> Callable[[], float | None]:
         late = time.monotonic() - started_s > DEADLINE_S
         pixel = middle() if waiting_for >= 0 else [0.0, 0.0, 0.0]
         if waiting_for < 0 or late or all((value > 0.9) == (i == waiting_for) for i, value in enumerate(pixel)):
-            seen.append(pixel)
+            if waiting_for >= 0:
+                seen.append(pixel)
             waiting_for = next(todo, None)
             if late or waiting_for is None:
                 (FOLDER / "result.json").write_text(json.dumps(seen))
