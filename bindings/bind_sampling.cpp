@@ -30,6 +30,16 @@ py::array_t<float> points(const WordArray& pixel_seed, const WordArray& sample, 
     return result;
 }
 
+py::tuple pixel_samplers(const py::array_t<std::uint32_t>& x, const py::array_t<std::uint32_t>& y, std::uint32_t seed,
+                         std::uint32_t log2_samples, const py::array_t<std::uint32_t>& sample) {
+    const auto field = [&](std::uint32_t Sampler::*member) {
+        return py::vectorize([=](std::uint32_t column, std::uint32_t row, std::uint32_t index) {
+            return pixel_sampler(column, row, seed, log2_samples, index).*member;
+        })(x, y, sample);
+    };
+    return py::make_tuple(field(&Sampler::pixel_seed), field(&Sampler::sample));
+}
+
 }  // namespace
 
 void register_sampling(py::module_& sampling) {
@@ -47,6 +57,11 @@ void register_sampling(py::module_& sampling) {
     sampling.def("points", &points, py::arg("pixel_seed"), py::arg("sample"), py::arg("dimension"),
                  py::arg("batches") = true,
                  "The points (n, 2) in [0, 1) of samples (n,) of pixels (n,): in SIMD batches, or one by one.");
+    sampling.def(
+        "pixel_samplers", &pixel_samplers, py::arg("x"), py::arg("y"), py::arg("seed"), py::arg("log2_samples"),
+        py::arg("sample"),
+        "What points() takes, pixel_seed and sample (n,), of samples (n,) below 2^log2_samples of the pixels at "
+        "(x, y), both (n,): those of a square of pixels are successive points of one sequence.");
 }
 
 }  // namespace pivot::bindings

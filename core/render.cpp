@@ -3,6 +3,7 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
+#include <bit>
 #include <numeric>
 #include <stdexcept>
 
@@ -194,11 +195,12 @@ struct Session::SamplePass {
     };
 
     std::uint32_t first_sample, last_sample;
+    std::uint32_t log2_samples;  ///< of all passes together, at least
     std::vector<Places> places;  ///< squares take one or another
 
-    SamplePass(std::uint32_t first, std::uint32_t last, std::uint32_t first_index, const PixelFilter& filter,
-               std::uint32_t seed, std::uint32_t place_count)
-        : first_sample(first), last_sample(last) {
+    SamplePass(std::uint32_t first, std::uint32_t last, std::uint32_t first_index, std::uint32_t all,
+               const PixelFilter& filter, std::uint32_t seed, std::uint32_t place_count)
+        : first_sample(first), last_sample(last), log2_samples(static_cast<std::uint32_t>(std::bit_width(all - 1))) {
         const auto across = static_cast<std::size_t>(2 * filter.reach_px() + 1);
         for (std::uint32_t k = 0; k < place_count; ++k) {
             Places& of_one = places.emplace_back();
@@ -226,7 +228,7 @@ bool Session::render_round(const Round& round, std::uint32_t samples) {
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
         const std::uint32_t count = std::min({std::max(done, 1u), most, samples - done});
-        const SamplePass pass(done, done + count, round.first_index, filter_, seed,
+        const SamplePass pass(done, done + count, round.first_index, samples, filter_, seed,
                               round.pilot.empty() && round.counts.empty() ? 1u : places_when_adaptive);
         for (const std::vector<Tile>& of_one_colour : tiles)
             tbb::parallel_for_each(of_one_colour, [&](const Tile& tile) { render_tile(round, pass, tile); });
@@ -290,17 +292,17 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     pixel_samples_done_ += samples_added;
 }
 
-void Session::shade_by_index(std::span<const Ray> rays, std::span<const Sampler> samplers,
+void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
                              std::span<Sample> samples) const {
     std::vector<std::size_t> order(rays.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return samplers[i].sample; });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return indices[i]; });
     std::vector<Ray> together;
     std::vector<Sample> shaded;
     for (std::size_t first = 0; first < order.size(); first += together.size()) {
-        const std::uint32_t index = samplers[order[first]].sample;
+        const std::uint32_t index = indices[order[first]];
         together.clear();
-        for (std::size_t i = first; i < order.size() && samplers[order[i]].sample == index; ++i)
+        for (std::size_t i = first; i < order.size() && indices[order[i]] == index; ++i)
             together.push_back(rays[order[i]]);
         shaded.resize(together.size());
         shade_analytic(*scene_, settings_, virtual_lights_, together, index, shaded);
@@ -312,26 +314,28 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     std::vector<Ray> rays;
+    std::vector<std::uint32_t> indices;
     std::vector<Sampler> samplers;
     for (int x = x0; x < x1; ++x) {
         const int frame_x = camera.window.x0 + x;
         const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
         // By place in the frame, so that a window shows the pixels of the whole; but those that choose among lights do
         // so together with their neighbours, of which a window has others.
-        const std::uint32_t place = hash(static_cast<std::uint32_t>(frame_x), static_cast<std::uint32_t>(frame_y));
+        const auto column = static_cast<std::uint32_t>(frame_x), line = static_cast<std::uint32_t>(frame_y);
         const std::size_t square = squares_.index(x + reach, y + reach);
         const std::size_t count = count_of(round, pass, square);
         const std::vector<Vec2f>& offsets = pass.places_of(frame_x, frame_y).offsets;
         for (std::size_t k = 0; k < count; ++k) {
             rays.push_back(camera.ray(center + offsets[k]));
-            samplers.emplace_back(hash(place, round.seed),
-                                  round.first_index + pass.first_sample + static_cast<std::uint32_t>(k));
+            const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
+            indices.push_back(index);
+            samplers.push_back(pixel_sampler(column, line, round.seed, pass.log2_samples, index));
         }
     }
     std::vector<Sample> samples(rays.size());
     if (rays.empty()) return samples;
     if (settings_.integrator == Integrator::analytic) {
-        shade_by_index(rays, samplers, samples);
+        shade_by_index(rays, indices, samples);
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
     }

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["owen_scramble", "points", "sobol_second", "to_unit"]
+__all__: list[str] = ["owen_scramble", "pixel_samplers", "points", "sobol_second", "to_unit"]
 
 def owen_scramble(
     fraction: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
@@ -15,6 +15,17 @@ def owen_scramble(
 ) -> typing.Any:
     """
     A 32-bit fraction (...), each bit flipped or not by those above it and the seed.
+    """
+
+def pixel_samplers(
+    x: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+    y: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+    seed: typing.SupportsInt | typing.SupportsIndex,
+    log2_samples: typing.SupportsInt | typing.SupportsIndex,
+    sample: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+) -> tuple:
+    """
+    What points() takes, pixel_seed and sample (n,), of samples (n,) below 2^log2_samples of the pixels at (x, y), both (n,): those of a square of pixels are successive points of one sequence.
     """
 
 def points(

@@ -1,9 +1,12 @@
 // Owen-scrambled Sobol points: two dimensions at a time, decorrelated between dimensions and pixels by shuffling.
 // Over 32-bit words or SIMD batches of them.
 //
+// [Ahmed20]   Ahmed, Wonka, Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering
+//             of Pixels
 // [Burley20]  Practical Hash-based Owen Scrambling
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -72,6 +75,26 @@ struct SamplerOf {
 };
 
 using Sampler = SamplerOf<std::uint32_t>;
+
+/// The bits of two coordinates in turns, x first: squares of 2^k x 2^k pixels are 4^k successive numbers.
+inline std::uint32_t morton_code(std::uint32_t x, std::uint32_t y) {
+    const auto spread = [](std::uint32_t v) {
+        v = (v | (v << 8)) & 0x00ff00ffu;
+        v = (v | (v << 4)) & 0x0f0f0f0fu;
+        v = (v | (v << 2)) & 0x33333333u;
+        return (v | (v << 1)) & 0x55555555u;
+    };
+    return spread(x & 0xffffu) | (spread(y & 0xffffu) << 1);
+}
+
+/// Sample number `sample` of the 2^log2_samples of a pixel. Those of a square of pixels are successive points of one
+/// sequence, so that neighbours' errors make up for each other in the eye [Ahmed20] and in a filter over both.
+inline Sampler pixel_sampler(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::uint32_t log2_samples,
+                             std::uint32_t sample) {
+    const std::uint32_t log2_square = std::min(3u, (32u - log2_samples) / 2u), mask = (1u << log2_square) - 1u;
+    return {hash(hash(x >> log2_square, y >> log2_square), seed),
+            (morton_code(x & mask, y & mask) << log2_samples) + sample};
+}
 
 /// As many samplers as a batch has lanes; past the end, the last again.
 inline SamplerOf<WordBatch> sampler_lanes(std::span<const Sampler> samplers) {

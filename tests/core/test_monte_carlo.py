@@ -28,8 +28,12 @@ def picture(**settings: object) -> Floats:
 
 
 def test_what_bounced_is_bounded_and_direct_light_is_not() -> None:
-    direct, free, clamped = picture(max_bounces=0), picture(max_bounces=3), picture(max_bounces=3, clamp_indirect=0.5)
-    assert (free - direct).max() > 10  # fireflies
+    def pictures(**settings: object) -> Floats:
+        return np.array([picture(seed=seed, **settings) for seed in range(8)])  # not every one has fireflies
+
+    direct, free = pictures(max_bounces=0), pictures(max_bounces=3)
+    clamped = pictures(max_bounces=3, clamp_indirect=0.5)
+    assert (free - direct).max() > 10
     # Three bounces, and at each a light sample and what its BSDF sample meets.
     assert (clamped - direct).max() < 3 * 2 * 0.5
     assert np.all(clamped - direct > -1e-4)
@@ -80,10 +84,13 @@ def hidden_lamps(lamps: int, wall: bool) -> pivot_core.Scene:
 
 def test_a_lamp_that_is_seldom_chosen_keeps_its_light() -> None:
     """More lamps than a first hit samples: what BSDF samples bring of the one that is left out is not lost."""
-    means = [
-        render(hidden_lamps(30, wall=False), light_sampling=mode, samples=256, max_bounces=0)[..., 0].mean()
-        for mode in ("JOINT", "MIS", "LIGHT", "BSDF")
-    ]
+
+    def mean(mode: str) -> float:  # of one picture it varies by up to 4 %
+        scene = hidden_lamps(30, wall=False)
+        pictures = [render(scene, light_sampling=mode, samples=256, seed=seed, max_bounces=0) for seed in range(8)]
+        return float(np.mean([picture[..., 0] for picture in pictures]))
+
+    means = [mean(mode) for mode in ("JOINT", "MIS", "LIGHT", "BSDF")]
     np.testing.assert_allclose(means, means[-1], rtol=0.05)
 
 

@@ -125,3 +125,23 @@ def test_numbers_are_below_one() -> None:
 def test_unequal_shapes_are_refused() -> None:
     with pytest.raises(ValueError, match="pixel_seed and sample must have one shape"):
         ps.points(np.zeros(3, np.uint32), np.zeros(4, np.uint32), 0)
+
+
+@pytest.mark.parametrize(("log2_samples", "log2_side"), [(0, 3), (2, 2), (5, 1), (16, 0)])
+def test_neighbouring_pixels_complete_each_other(log2_samples: int, log2_side: int) -> None:
+    """A square's samples fill every grid of as many equal cells, wherever the square is."""
+    side, samples = 1 << log2_side, 1 << log2_samples
+    log2_count = log2_samples + 2 * log2_side
+    for corner_x, corner_y, seed, dimension in ((0, 0, 1, 0), (13, 250, 2, 5), (70, 1000, 3, 8)):
+        y, x, sample = np.indices((side, side, samples), dtype=np.uint32).reshape(3, -1)
+        x, y = x + np.uint32(corner_x * side), y + np.uint32(corner_y * side)
+        points = ps.points(*ps.pixel_samplers(x, y, seed, log2_samples, sample), dimension)
+        for log2_columns in range(log2_count + 1):
+            counts = cell_counts(points, 1 << log2_columns, 1 << (log2_count - log2_columns))
+            np.testing.assert_array_equal(counts, 1)
+
+
+def test_no_two_pixels_of_a_frame_have_the_same_sample() -> None:
+    y, x, sample = np.indices((600, 600, 2), dtype=np.uint32).reshape(3, -1)
+    pairs = np.stack(ps.pixel_samplers(x, y, 7, 1, sample), 1)
+    assert len(np.unique(pairs, axis=0)) == len(pairs)
