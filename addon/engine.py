@@ -9,14 +9,14 @@ from typing import Any, ClassVar
 import bpy
 from bpy.app.handlers import persistent
 
-from . import core
+from . import core, denoise
 from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
 from .export.images import ImageCache
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
-from .passes import channel_count, fill_layer, register_passes
+from .passes import channel_count, fill_layer, has_denoising_passes, register_passes
 from .progress import Progress
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
@@ -105,9 +105,11 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
             if self.is_preview:
                 samples, bounces = min(samples, _PREVIEW_SAMPLES), min(bounces, _PREVIEW_BOUNCES)
-            scene = depsgraph.scene
-            settings = render_settings(context.core, scene, setting_values(scene, samples, bounces))
-            self._run(context.core.Session(context.scene, settings), samples, result, context.reporter)
+            scene, mode = depsgraph.scene, denoise.mode_of(depsgraph.scene, context.reporter)
+            values = setting_values(scene, samples, bounces)
+            values["denoising_passes"] = mode != "NONE" or has_denoising_passes(depsgraph.view_layer)
+            settings = render_settings(context.core, scene, values)
+            self._run(context.core.Session(context.scene, settings), samples, mode, result, context.reporter)
             done = True
         finally:
             self.end_result(result, cancel=not done)
@@ -128,20 +130,27 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         views = len(self._views(scene))
         channels = [channel_count(layer) for layer in scene.view_layers if layer.use for _ in range(views)]
         width, height = frame.window_size
-        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive)
+        denoises = scene.pivot.denoise != "NONE" or any(map(has_denoising_passes, scene.view_layers))
+        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive, denoises)
         check_memory(width, height, picture_bytes(width, height, film_pixel_bytes, channels))
 
     def _check_cancel(self) -> None:
         if self.test_break():
             raise _Cancelled
 
-    def _run(self, session: Any, samples: int, result: Any, reporter: Reporter) -> None:
-        """Render to the end, showing progress and, in the interface, the picture. Raises _Cancelled."""
+    def _run(self, session: Any, samples: int, mode: str, result: Any, reporter: Reporter) -> None:
+        """Render to the end, showing progress and, in the interface, the picture. Raises _Cancelled.
+
+        mode: scene.pivot.denoise, or 'NONE' where that cannot be had.
+        """
         progress = Progress(self, samples)
         shown_s = 0.0
 
-        def show() -> None:
-            fill_layer(result.layers[0], session.width, session.height, session.read)
+        def show(combined: Any = None) -> None:
+            def read(name: str) -> Any:
+                return combined if combined is not None and name == "Combined" else session.read(name)
+
+            fill_layer(result.layers[0], session.width, session.height, read)
             self.update_result(result)
 
         session.start()
@@ -155,7 +164,11 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         finally:
             session.stop()
         progress.show(session, last=True)
-        show()
+        try:
+            show(denoise.denoised(mode, session.read) if mode != "NONE" else None)
+        except denoise.DenoiserError as error:  # the picture is there, with its noise
+            show()
+            reporter.warn(str(error))
         for sample in session.bad_samples:
             reporter.warn(f"a sample was not finite and was left out: {sample}")
         if self.strict:

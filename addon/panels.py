@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 
+from . import denoise
 from .chart import operators as chart_operators
 from .engine import PivotRenderEngine
 from .passes import PASSES
@@ -83,6 +84,14 @@ def _columns(panel: Any) -> Any:
     return panel.layout
 
 
+def draw_denoising(layout: bpy.types.UILayout, pivot: Any) -> None:
+    column = layout.column()
+    column.enabled = denoise.is_there()
+    column.prop(pivot, "denoise")
+    if not column.enabled:
+        column.label(text=f"To denoise, {denoise.HOW_TO_GET_IT}", icon="INFO")
+
+
 class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
@@ -110,6 +119,8 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
             lights.active = pivot.indirect == "VSGL"
             lights.prop(pivot, "virtual_lights")
             lights.prop(pivot, "max_bounces")
+        if pivot.integrator == "MONTE_CARLO":
+            draw_denoising(layout, pivot)
         layout.prop(pivot, "time_limit")
 
 
@@ -149,10 +160,11 @@ class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column = _columns(self).column(heading="Include")
-        for entry in PASSES:
+        labels = {entry.switch: entry.name_5_0 for entry in PASSES} | {"denoising_store_passes": "Denoising Data"}
+        for entry in {entry.switch: entry for entry in PASSES}.values():
             switches = entry.switches(context.view_layer)
             if entry.settings != "pivot" and switches is not None:
-                column.prop(switches, entry.switch, text=entry.name_5_0)
+                column.prop(switches, entry.switch, text=labels[entry.switch])
 
 
 class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
@@ -160,7 +172,7 @@ class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column = _columns(self).column(heading="Analytic")
+        column = _columns(self).column(heading="Include")
         for entry in PASSES:
             if entry.settings == "pivot":
                 column.prop(context.view_layer.pivot, entry.switch)

@@ -42,6 +42,14 @@ PASSES = (
     Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
     Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
     Pass("Indirect", "Indirect", "Indirect", "RGB", "COLOR", "use_pass_indirect", "pivot"),
+    Pass("Noisy Image", "Noisy Image", "Noisy Image", "RGBA", "COLOR", "denoising_store_passes", "cycles"),
+    Pass(
+        "Denoising Normal", "Denoising Normal", "Denoising Normal", "XYZ", "VECTOR", "denoising_store_passes", "cycles"
+    ),
+    Pass(
+        "Denoising Albedo", "Denoising Albedo", "Denoising Albedo", "RGB", "COLOR", "denoising_store_passes", "cycles"
+    ),
+    Pass("Depth", "Denoising Depth", "Denoising Depth", "Z", "VALUE", "denoising_store_passes", "cycles"),
     Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
     Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )
@@ -54,6 +62,11 @@ def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view
             engine.register_pass(
                 scene, view_layer, entry.blender_name(), len(entry.channels), entry.channels, entry.kind
             )
+
+
+def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
+    """Whether this view layer gets what a denoiser works on."""
+    return any(entry.is_on(view_layer) for entry in PASSES if entry.switch == "denoising_store_passes")
 
 
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:

@@ -31,6 +31,12 @@ OCCLUSIONS = (
     ("NONE", "None", "Lights cast no shadows"),
 )
 
+DENOISING = (
+    ("NONE", "None", "Noise stays"),
+    ("INDIRECT", "Indirect", "Light that bounced; direct light keeps its shadows and highlights as they are"),
+    ("ALL", "All", "All light: where direct light is noisy too"),
+)
+
 INDIRECT = (
     ("NONE", "None", "Direct light only"),
     (
@@ -157,6 +163,13 @@ class PivotSettings(bpy.types.PropertyGroup):
         max=1 << 20,
         update=_settings_changed,
     )
+    denoise: EnumProperty(
+        name="Denoise",
+        description="What of the final picture Open Image Denoise cleans of noise",
+        items=DENOISING,
+        default="NONE",
+        update=_settings_changed,
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description="Seconds after which a frame stops with the samples it has; 0 is no limit",
@@ -182,7 +195,7 @@ class PivotPasses(bpy.types.PropertyGroup):
     )
     use_pass_indirect: BoolProperty(
         name="Indirect",
-        description="The analytic integrator's light that comes by way of other surfaces",
+        description="Light that comes by way of other surfaces or fog: the analytic integrator's if it has virtual lights",
         update=_passes_changed,
     )
     use_pass_error: BoolProperty(

@@ -21,7 +21,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
                              float filter_glossy, const string& indirect, int virtual_lights,
-                             const string& virtual_light_method) {
+                             const string& virtual_light_method, bool denoising_passes) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(clamp_indirect >= 0.0f, "clamp_indirect must not be negative");
@@ -61,7 +61,8 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .threads = threads,
         .filter_shape = pixel_filter_from(pixel_filter),
         .filter_width_px = filter_width_px,
-        .transparent_film = transparent_film};
+        .transparent_film = transparent_film,
+        .denoising_passes = denoising_passes};
 }
 
 py::array_t<float> read(const Session& session, const string& pass_name) {
@@ -82,7 +83,7 @@ void register_render(py::module_& module) {
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
-             py::arg("virtual_light_method") = "AUTO");
+             py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false);
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -101,7 +102,7 @@ void register_render(py::module_& module) {
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
         .def_static("bytes_per_pixel", &Session::bytes_per_pixel, py::arg("adaptive"),
-                    "What a session allocates for each pixel of its window.")
+                    py::arg("denoising_passes") = false, "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def_property_readonly(
@@ -116,10 +117,11 @@ void register_render(py::module_& module) {
              "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
              "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
              "VolumeInd: what media scatter to the camera of light that comes to them "
-             "straight, and of other light. Of the analytic "
-             "integrator, black elsewhere: Indirect, what came by way of other surfaces; Method, the colours of the "
-             "methods taken; Error, the relative error "
-             "predicted.");
+             "straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic "
+             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
+             "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
+             "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
+             "lobes; Denoising Normal.");
 }
 
 }  // namespace pivot::bindings

@@ -60,8 +60,8 @@ std::optional<float> radiance_variance(std::span<const Sample> samples) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum =
-        s.radiance + s.indirect + s.normal + s.albedo + s.emission + s.method + s.volume_direct + s.volume_indirect;
+    const Vec3f sum = s.radiance + s.indirect + s.denoising_albedo + s.normal + s.albedo + s.emission + s.method +
+                      s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 
@@ -73,7 +73,7 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
       filter_(settings.filter_shape, settings.filter_width_px),
       squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
                scene_->camera().window.height() + 2 * filter_.reach_px()},
-      film_(scene_->camera().window.width(), scene_->camera().window.height()),
+      film_(scene_->camera().window.width(), scene_->camera().window.height(), settings.denoising_passes),
       total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
@@ -110,10 +110,11 @@ bool Session::wait(double seconds) {
     return ended;
 }
 
-std::size_t Session::bytes_per_pixel(bool adaptive) {
-    if (!adaptive) return sizeof(Pixel);
+std::size_t Session::bytes_per_pixel(bool adaptive, bool denoising_passes) {
+    const std::size_t film = sizeof(Pixel) + (denoising_passes ? sizeof(OwnSum) : 0);
+    if (!adaptive) return film;
     constexpr std::size_t numbers_of_counts = 16;  // while they are made
-    return 2 * (sizeof(Pixel) + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
+    return 2 * (film + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
 }
 
 double Session::progress() const {
@@ -149,7 +150,7 @@ void Session::run() {
 void Session::render_adaptively() {
     const bool analytic = settings_.integrator == Integrator::analytic;
     const std::uint32_t whole = even_samples(settings_), half = whole / 2;
-    Film other_film(film_.width(), film_.height());
+    Film other_film(film_.width(), film_.height(), film_.keeps_own_sums());
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
     const auto round_of = [&](std::uint32_t number, Film& film) {
@@ -262,6 +263,8 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     const PixelGrid grid{reached.x1 - reached.x0, reached.y1 - reached.y0};
     std::vector<Pixel> pixels;
     round.film.load(reached, pixels);
+    const PixelGrid own_grid{tile.x1 - tile.x0, tile.y1 - tile.y0};
+    std::vector<OwnSum> own(round.film.keeps_own_sums() ? own_grid.size() : 0);
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
@@ -277,18 +280,27 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
             const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
+            const auto weight_in = [&](int u, int v) {
+                return scale * (round.weights.empty() ? 1.0f : round.weights[film_.grid().index(u, v)]);
+            };
+            if (is_seen && !own.empty()) own[own_grid.index(x - tile.x0, y - tile.y0)].add(samples, weight_in(x, y));
             auto weights = pass.places_of(window.x0 + x, window.y0 + y).weights.begin();
             for (int v = y - reach; v <= y + reach; ++v) {
                 for (int u = x - reach; u <= x + reach; ++u, ++weights) {
                     if (u < reached.x0 || u >= reached.x1 || v < reached.y0 || v >= reached.y1) continue;
-                    const float of_round = round.weights.empty() ? 1.0f : round.weights[film_.grid().index(u, v)];
                     pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, variance,
-                                                                                   scale * of_round);
+                                                                                   weight_in(u, v));
                 }
             }
         }
     }
     round.film.store(reached, pixels);
+    for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, film_.height()) && !own.empty(); ++y) {
+        const int x0 = std::max(tile.x0, 0), x1 = std::min(tile.x1, film_.width());
+        round.film.add_own(x0, y,
+                           std::span(own).subspan(own_grid.index(x0 - tile.x0, y - tile.y0),
+                                                  static_cast<std::size_t>(std::max(x1 - x0, 0))));
+    }
     pixel_samples_done_ += samples_added;
 }
 

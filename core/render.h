@@ -35,7 +35,7 @@ class Session {
     void stop() { stop_ = true; }
 
     /// What a session allocates for each pixel of its window.
-    static std::size_t bytes_per_pixel(bool adaptive);
+    static std::size_t bytes_per_pixel(bool adaptive, bool denoising_passes);
 
     double progress() const;
     std::uint32_t samples_done() const { return samples_done_; }

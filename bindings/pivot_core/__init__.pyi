@@ -666,6 +666,7 @@ class RenderSettings:
         indirect: str = "NONE",
         virtual_lights: typing.SupportsInt | typing.SupportsIndex = 4096,
         virtual_light_method: str = "AUTO",
+        denoising_passes: bool = False,
     ) -> None: ...
 
 class Session:
@@ -673,14 +674,14 @@ class Session:
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
     @staticmethod
-    def bytes_per_pixel(adaptive: bool) -> int:
+    def bytes_per_pixel(adaptive: bool, denoising_passes: bool = False) -> int:
         """
         What a session allocates for each pixel of its window.
         """
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light. Of the analytic integrator, black elsewhere: Indirect, what came by way of other surfaces; Method, the colours of the methods taken; Error, the relative error predicted.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal.
         """
     def start(self) -> None:
         """

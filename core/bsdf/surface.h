@@ -136,6 +136,16 @@ Vec3<T> diffuse_color(const SurfaceOf<T>& surface) {
     return color;
 }
 
+/// What all lobes send to the viewer where all light around is 1, at most 1, as a denoiser wants it.
+template <class T>
+Vec3<T> denoising_albedo(const SurfaceOf<T>& surface) {
+    Vec3<T> albedo = albedo_base(surface);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        albedo += select(is_kind, lobe.albedo(surface.wo_local), Vec3<T>(T(0)));
+    });
+    return min(albedo, Vec3<T>(T(1)));
+}
+
 /// Means over colours of what the lobes beside the base send to the viewer where all light around is 1, by the side
 /// that it comes from.
 template <class T>

@@ -30,16 +30,28 @@ void add_weighted(std::span<const Sample> samples, std::span<const float> weight
 
 void put(const Vec3f& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
-void write_combined(const Pixel& pixel, float* out) {
+void write_combined(const Pixel& pixel, const OwnSum&, float* out) {
     put(pixel.samples.sum.radiance * pixel.samples.per_weight(), out);
     out[3] = pixel.samples.sum.alpha * pixel.samples.per_weight();
 }
 
 /// A sum of three channels as its mean.
 template <Vec3f Sample::*sum>
-void write_mean(const Pixel& pixel, float* out) {
+void write_mean(const Pixel& pixel, const OwnSum&, float* out) {
     put(pixel.samples.sum.*sum * pixel.samples.per_weight(), out);
 }
+
+template <Vec3f OwnSum::*sum>
+void write_own(const Pixel&, const OwnSum& own, float* out) {
+    put(own.*sum * own.per_weight(), out);
+}
+
+void write_noisy(const Pixel& pixel, const OwnSum& own, float* out) {
+    put(own.radiance * own.per_weight(), out);
+    out[3] = pixel.samples.sum.alpha * pixel.samples.per_weight();
+}
+
+void write_depth(const Pixel& pixel, const OwnSum&, float* out) { *out = pixel.center.depth_m; }
 
 /// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
 /// the closed forms, and that of evenly spread samples whose values differ, by shadows and edges in the pixel.
@@ -59,16 +71,20 @@ float predicted_error(const Pixel& pixel) {
 
 constexpr Pass passes[] = {
     {"Combined", 4, write_combined},
-    {"Depth", 1, [](const Pixel& pixel, float* out) { *out = pixel.center.depth_m; }},
+    {"Depth", 1, write_depth},
     {"Normal", 3, write_mean<&Sample::normal>},
-    {"Position", 3, [](const Pixel& pixel, float* out) { put(pixel.center.position, out); }},
+    {"Position", 3, [](const Pixel& pixel, const OwnSum&, float* out) { put(pixel.center.position, out); }},
     {"DiffCol", 3, write_mean<&Sample::albedo>},
     {"Emit", 3, write_mean<&Sample::emission>},
     {"VolumeDir", 3, write_mean<&Sample::volume_direct>},
     {"VolumeInd", 3, write_mean<&Sample::volume_indirect>},
     {"Indirect", 3, write_mean<&Sample::indirect>},
     {"Method", 3, write_mean<&Sample::method>},
-    {"Error", 1, [](const Pixel& pixel, float* out) { *out = predicted_error(pixel); }},
+    {"Error", 1, [](const Pixel& pixel, const OwnSum&, float* out) { *out = predicted_error(pixel); }},
+    {"Noisy Image", 4, write_noisy, true},
+    {"Noisy Indirect", 3, write_own<&OwnSum::indirect>, true},
+    {"Denoising Albedo", 3, write_own<&OwnSum::albedo>, true},
+    {"Denoising Normal", 3, write_own<&OwnSum::normal>, true},
 };
 
 }  // namespace
@@ -97,6 +113,19 @@ void WeightedSum::add(const WeightedSum& other, float scale) {
     variance += sqr(scale) * other.variance;
 }
 
+void OwnSum::add(std::span<const Sample> samples, float scale) {
+    for (const Sample& sample : samples)
+        add({sample.radiance, sample.indirect, sample.denoising_albedo, sample.normal, 1.0f}, scale);
+}
+
+void OwnSum::add(const OwnSum& other, float scale) {
+    radiance += scale * other.radiance;
+    indirect += scale * other.indirect;
+    albedo += scale * other.albedo;
+    normal += scale * other.normal;
+    weight += scale * other.weight;
+}
+
 const Pass& find_pass(std::string_view name) {
     std::string known;
     for (const Pass& pass : passes) {
@@ -106,7 +135,8 @@ const Pass& find_pass(std::string_view name) {
     throw std::invalid_argument("there is no pass '" + std::string(name) + "'; choose one of " + known);
 }
 
-Film::Film(int width, int height) : grid_{width, height}, pixels_(grid_.size()) {}
+Film::Film(int width, int height, bool keeps_own_sums)
+    : grid_{width, height}, pixels_(grid_.size()), own_sums_(keeps_own_sums ? grid_.size() : 0) {}
 
 void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const {
     pixels.clear();
@@ -124,6 +154,12 @@ void Film::store(const Tile& tile, const std::vector<Pixel>& pixels) {
     }
 }
 
+void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
+    const std::shared_lock lock(mutex_);
+    OwnSum* own = &own_sums_[grid_.index(x, y)];
+    for (const OwnSum& sum : sums) (own++)->add(sum, 1.0f);
+}
+
 void Film::merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights) {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
@@ -132,6 +168,12 @@ void Film::merge(const Film& other, std::span<const float> own_weights, std::spa
              {std::pair(pixels_[i].samples, own_weights[i]), std::pair(other.pixels_[i].samples, other_weights[i])})
             merged.add(samples, weight * samples.per_weight());
         pixels_[i].samples = merged;
+        if (!keeps_own_sums()) continue;
+        OwnSum own;
+        for (const auto& [sum, weight] :
+             {std::pair(own_sums_[i], own_weights[i]), std::pair(other.own_sums_[i], other_weights[i])})
+            own.add(sum, weight * sum.per_weight());
+        own_sums_[i] = own;
     }
 }
 
@@ -151,13 +193,19 @@ float Film::squared_error_beside(const Film& other) const {
 void Film::add(const Film& other) {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].samples.add(other.pixels_[i].samples, 1.0f);
+    for (std::size_t i = 0; i < own_sums_.size(); ++i) own_sums_[i].add(other.own_sums_[i], 1.0f);
 }
 
 std::vector<float> Film::read(const Pass& pass) const {
     const auto stride = static_cast<std::size_t>(pass.channels);
     std::vector<float> values(pixels_.size() * stride);
+    if (pass.is_for_denoiser && !keeps_own_sums())
+        throw std::invalid_argument("the pass '" + std::string(pass.name) +
+                                    "' is for a denoiser: render with denoising_passes");
+    const OwnSum none;
     const std::unique_lock lock(mutex_);
-    for (std::size_t i = 0; i < pixels_.size(); ++i) pass.write(pixels_[i], &values[i * stride]);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        pass.write(pixels_[i], keeps_own_sums() ? own_sums_[i] : none, &values[i * stride]);
     return values;
 }
 

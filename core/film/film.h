@@ -23,7 +23,8 @@ struct Sample {
     Rgb emission{0.0f};            ///< of the first hit itself
     Rgb volume_direct{0.0f};       ///< what media scatter to the camera of light that comes to them straight
     Rgb volume_indirect{0.0f};     ///< and of other light
-    Rgb indirect{0.0f};            ///< analytic: of radiance, what came by way of other surfaces
+    Rgb indirect{0.0f};            ///< of radiance, what came by way of other surfaces and media
+    Rgb denoising_albedo{0.0f};    ///< Monte Carlo, for a denoiser: of all lobes at the first hit, at most 1
     Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
     float error = 0.0f;            ///< analytic: predicted for what is in closed form, as radiance
     float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared
@@ -61,6 +62,20 @@ struct Pixel {
     CenterSample center;
 };
 
+/// What a denoiser works on: sums of a pixel's own samples, which no other pixel shares. Where neighbours share samples
+/// their noise looks alike, and a denoiser takes it for what is seen.
+struct OwnSum {
+    Rgb radiance{0.0f}, indirect{0.0f}, albedo{0.0f};
+    Vec3f normal{0.0f};
+    float weight = 0.0f;
+
+    /// Adds samples, all of them times `scale`.
+    void add(std::span<const Sample> samples, float scale);
+    void add(const OwnSum& other, float scale);
+    /// What a sum is multiplied by for its mean; 0 without samples.
+    float per_weight() const { return weight > 0.0f ? 1.0f / weight : 0.0f; }
+};
+
 /// A grid of pixels, row by row.
 struct PixelGrid {
     int width, height;
@@ -79,7 +94,8 @@ struct Tile {
 struct Pass {
     std::string_view name;
     int channels;
-    void (*write)(const Pixel& pixel, float* out);
+    void (*write)(const Pixel& pixel, const OwnSum& own, float* out);
+    bool is_for_denoiser = false;  ///< written from own sums
 };
 
 /// Throws std::invalid_argument, which lists the passes there are.
@@ -87,7 +103,8 @@ const Pass& find_pass(std::string_view name);
 
 class Film {
    public:
-    Film(int width, int height);
+    /// keeps_own_sums: whether passes for a denoiser can be read.
+    Film(int width, int height, bool keeps_own_sums);
 
     const PixelGrid& grid() const { return grid_; }
     int width() const { return grid_.width; }
@@ -97,6 +114,10 @@ class Film {
     void load(const Tile& tile, std::vector<Pixel>& pixels) const;
     void store(const Tile& tile, const std::vector<Pixel>& pixels);
 
+    bool keeps_own_sums() const { return !own_sums_.empty(); }
+    /// Adds own sums of the pixels of a row from x on. Writers of one pixel must take turns.
+    void add_own(int x, int y, std::span<const OwnSum> sums);
+
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
@@ -105,7 +126,7 @@ class Film {
     /// Adds the other's samples.
     void add(const Film& other);
 
-    /// A pass as height x width x channels, bottom row first.
+    /// A pass as height x width x channels, bottom row first. Throws std::invalid_argument where own sums are missing.
     std::vector<float> read(const Pass& pass) const;
 
    private:
@@ -114,6 +135,7 @@ class Film {
 
     PixelGrid grid_;
     std::vector<Pixel> pixels_;
+    std::vector<OwnSum> own_sums_;     ///< of each pixel, or empty
     mutable std::shared_mutex mutex_;  ///< shared by writers, whose tiles are disjoint; owned by a reader
 };
 

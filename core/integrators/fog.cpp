@@ -22,7 +22,7 @@ Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path) {
     if (ray_.size() == 0) return Rgb(1.0f);
     if (const Rgb emitted = ray_.emitted(); max_component(abs(emitted)) > 0.0f) {
         const Rgb light = bounded(work_.settings, bounce, path.throughput * emitted);
-        work_.samples[path.sample].radiance += light;
+        add_radiance(bounce, light, work_.samples[path.sample]);
         if (bounce == 0) work_.samples[path.sample].emission += light;
     }
     const std::uint32_t last = work_.settings.max_bounces;
@@ -209,7 +209,7 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
 
 void Fog::add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light) {
     const Rgb added = bounded(work_.settings, bounce, light);
-    work_.samples[sample].radiance += added;
+    add_radiance(bounce, added, work_.samples[sample]);
     if (bounce == 0) work_.samples[sample].volume_direct += added;
 }
 

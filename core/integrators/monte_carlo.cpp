@@ -111,6 +111,8 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
     const auto lanes_of = [](const Vec3b& v) { return std::array{store(v.x), store(v.y), store(v.z)}; };
     const auto normal = lanes_of(batch.vertices.point.frame.z),
                albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
+    const auto all_albedo =
+        lanes_of(work.settings.denoising_passes ? denoising_albedo(batch.vertices.surface) : Vec3b(Batch(0.0f)));
     const auto at = [](const auto& lanes, std::size_t i) { return Rgb(lanes[0][i], lanes[1][i], lanes[2][i]); };
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
@@ -119,6 +121,7 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
         sample.emission += emitted;
         sample.normal = at(normal, i);
         sample.albedo = at(albedo, i);
+        if (work.settings.denoising_passes) sample.denoising_albedo = at(all_albedo, i);
     }
 }
 
@@ -127,7 +130,7 @@ void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, c
     const Vec3b light = bounded(work.settings, bounce, unbounded);
     const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
     for (std::size_t i = 0; i < batch.paths.size(); ++i)
-        work.samples[batch.paths[i].sample].radiance += Rgb(r[i], g[i], b[i]);
+        add_radiance(bounce, Rgb(r[i], g[i], b[i]), work.samples[batch.paths[i].sample]);
 }
 
 /// A BSDF sample of each path: its ray, and what the path is worth along it.
@@ -348,6 +351,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
         const Sample& scattered = own_samples[count + i];
         samples[i] = own_samples[i];
         samples[i].radiance += scattered.radiance;
+        samples[i].indirect += scattered.indirect;
         samples[i].volume_direct += scattered.volume_direct;
         samples[i].volume_indirect = scattered.radiance - scattered.volume_direct;
     }

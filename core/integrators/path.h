@@ -51,4 +51,10 @@ Vec3<T> bounded(const RenderSettings& settings, std::uint32_t bounce, const Vec3
     return light * select(size > limit, limit / size, T(1));
 }
 
+/// Adds what a path brings by way of its vertex of that bounce.
+inline void add_radiance(std::uint32_t bounce, const Rgb& light, Sample& sample) {
+    sample.radiance += light;
+    if (bounce > 0) sample.indirect += light;
+}
+
 }  // namespace pivot

@@ -50,6 +50,7 @@ struct RenderSettings {
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
+    bool denoising_passes = false;  ///< whether what a denoiser works on is kept
 };
 
 /// What every pixel has at least: all, or the pilot of adaptive sampling, which needs more to be worth it.

@@ -32,6 +32,7 @@ def test_defaults(cases: Any) -> None:
         "threads": 0,
         "filter_width_px": 3.0,
         "transparent_film": False,
+        "denoising_passes": False,
     }
     assert cases["defaults"]["threads"] >= 1
 
@@ -55,6 +56,7 @@ def test_settings(cases: Any) -> None:
         "threads": 3,
         "filter_width_px": 4.0,
         "transparent_film": True,
+        "denoising_passes": False,
     }
 
 

@@ -150,11 +150,11 @@ SCENE = {
         """,
     ),
     "CyclesRenderLayerSettings": Table(
-        used="use_pass_volume_direct use_pass_volume_indirect",
+        used="use_pass_volume_direct use_pass_volume_indirect denoising_store_passes",
         left_out=(
             *_missing_passes("""
                 pass_debug_sample_count use_pass_shadow_catcher
-                denoising_store_passes pass_render_time@5.0 use_pass_volume_scatter@5.0 use_pass_volume_transmit@5.0
+                pass_render_time@5.0 use_pass_volume_scatter@5.0 use_pass_volume_transmit@5.0
                 use_pass_volume_majorant@5.0 denoising_store_motion_passes@5.3
                 """),
         ),

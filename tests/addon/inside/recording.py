@@ -110,6 +110,7 @@ class RenderSettings:
     threads: int
     filter_width_px: float
     transparent_film: bool
+    denoising_passes: bool
 
 
 @dataclass
@@ -237,7 +238,7 @@ class Session:
     virtual_lights = (0, 0, 0.0)
 
     @staticmethod
-    def bytes_per_pixel(adaptive: bool) -> int:
+    def bytes_per_pixel(adaptive: bool, denoising_passes: bool) -> int:
         return 88
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None:

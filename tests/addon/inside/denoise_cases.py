@@ -1,0 +1,71 @@
+"""A red wall's light on a floor, noisy, denoised, and where there is no denoiser; pictures in the folder."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import bpy
+import parts
+from pivot import denoise, engine, passes
+
+SAMPLES = 4
+SETTINGS = {"noisy": "NONE", "indirect": "INDIRECT", "all": "ALL"}
+
+
+def main(folder: Path) -> dict[str, Any]:
+    """Writes NAME.exr of each of SETTINGS, converged.exr, analytic.exr and absent.exr; returns what was said."""
+    _scene()
+    scene = bpy.context.scene
+    image, pivot = scene.render.image_settings, scene.pivot
+    scene.render.engine = "PIVOT"
+    scene.render.film_transparent = True
+    image.file_format, image.color_depth, image.color_mode = "OPEN_EXR", "32", "RGBA"
+
+    def render(name: str) -> list[str]:
+        engine.PivotRenderEngine.said_in_job.clear()
+        scene.render.filepath = str(folder / f"{name}.exr")
+        bpy.ops.render.render(write_still=True)
+        return sorted(engine.PivotRenderEngine.frame_count.warnings)
+
+    pivot.samples = SAMPLES
+    said = {}
+    for name, pivot.denoise in SETTINGS.items():
+        said[name] = render(name)
+    found = denoise.is_there()
+    denoise._library.cache_clear()
+    candidates, denoise._candidates = denoise._candidates, lambda: iter(["/nowhere/libOpenImageDenoise.so"])
+    said["absent"] = render("absent")
+    denoise._candidates = candidates
+    denoise._library.cache_clear()
+    pivot.integrator = "ANALYTIC"
+    said["analytic"] = render("analytic")
+    pivot.integrator, pivot.denoise, pivot.samples = "MONTE_CARLO", "NONE", 2048
+    render("converged")
+    return {"found": found, "said": said, "passes": _denoising_data(folder)}
+
+
+def _denoising_data(folder: Path) -> list[str]:
+    """The channels of a file with Denoising Data on."""
+    scene = bpy.context.scene
+    scene.pivot.samples = 1
+    scene.view_layers[0].cycles.denoising_store_passes = True
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.filepath = str(folder / "data.exr")
+    bpy.ops.render.render(write_still=True)
+    return [entry.blender_name() for entry in passes.PASSES if entry.switch == "denoising_store_passes"]
+
+
+def _scene() -> None:
+    parts.clear()
+    parts.size(64, 48)
+    parts.camera((0, -3, 2.5), (math.radians(50), 0, 0))
+    grey = parts.shaded("grey", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8, 1))[0]
+    red = parts.shaded("red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))[0]
+    floor = parts.quad("floor", material=grey)
+    floor.scale = (1.5, 1.5, 1)
+    for side in (-1, 1):
+        wall = parts.quad(f"wall {side}", (side, 0, 1), red)
+        wall.rotation_euler = (0, math.pi / 2, 0)
+    parts.light("lamp", "POINT", (0.3, 0, 1.2), energy=30, shadow_soft_size=0.2)

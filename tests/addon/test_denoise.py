@@ -1,0 +1,65 @@
+"""Denoise cleans what it says, leaves all else, and without its library a picture is as it was."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import OpenEXR
+import pytest
+from blender_host import Host
+from exr import read_rgb
+from numpy.typing import NDArray
+
+
+@pytest.fixture(scope="module")
+def case(host: Host, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
+    folder = tmp_path_factory.mktemp("denoise")
+    return folder, host.run("denoise_cases", folder)
+
+
+def squared_error(folder: Path, name: str) -> float:
+    return float(np.mean((read_rgb(folder / f"{name}.exr") - read_rgb(folder / "converged.exr")) ** 2))
+
+
+def alpha(folder: Path, name: str) -> NDArray[np.float32]:
+    with OpenEXR.File(str(folder / f"{name}.exr"), separate_channels=True) as file:
+        return np.array(file.channels()["A"].pixels)
+
+
+@pytest.mark.parametrize("name", ["indirect", "all"])
+def test_denoised_pictures_are_nearer_the_converged_one(case: tuple[Path, Any], name: str) -> None:
+    folder, result = case
+    if not result["found"]:
+        assert ["scene 'Scene', Denoise: there is no denoiser, noise stays" in said for said in result["said"][name]]
+        np.testing.assert_array_equal(read_rgb(folder / f"{name}.exr"), read_rgb(folder / "noisy.exr"))
+        return
+    assert result["said"][name] == []
+    assert squared_error(folder, name) < 0.7 * squared_error(folder, "noisy")
+    ratio = read_rgb(folder / f"{name}.exr").mean() / read_rgb(folder / "converged.exr").mean()
+    assert abs(ratio - 1) < 0.02
+    np.testing.assert_array_equal(alpha(folder, name), alpha(folder, "noisy"))
+
+
+def test_without_the_library_noise_stays_and_is_named(case: tuple[Path, Any]) -> None:
+    folder, result = case
+    (said,) = result["said"]["absent"]
+    assert "scene 'Scene', Denoise: there is no denoiser, noise stays. Fix: install Open Image Denoise" in said
+    np.testing.assert_array_equal(read_rgb(folder / "absent.exr"), read_rgb(folder / "noisy.exr"))
+
+
+def test_nobody_who_did_not_ask_hears_of_it(case: tuple[Path, Any]) -> None:
+    assert case[1]["said"]["noisy"] == []
+    assert not any("denoise" in said.lower() for said in case[1]["said"]["analytic"])
+
+
+def test_denoising_data_is_blenders(case: tuple[Path, Any]) -> None:
+    folder, result = case
+    with OpenEXR.File(str(folder / "data.exr"), separate_channels=True) as file:
+        channels = {name: np.array(channel.pixels) for name, channel in file.channels().items()}
+    for name, letters in (("Noisy Image", "RGBA"), ("Denoising Normal", "XYZ"), ("Denoising Albedo", "RGB")):
+        assert np.any([channels[f"ViewLayer.{name}.{letter}"] != 0 for letter in letters]), name
+    assert result["passes"] == ["Noisy Image", "Denoising Normal", "Denoising Albedo", "Denoising Depth"]
+    depth = channels["ViewLayer.Denoising Depth.Z"]
+    assert 2 < depth.min() < 4
