@@ -195,7 +195,7 @@ class PivotPasses(bpy.types.PropertyGroup):
     )
     use_pass_indirect: BoolProperty(
         name="Indirect",
-        description="Light that comes by way of other surfaces or fog: the analytic integrator's if it has virtual lights",
+        description="Light that comes by way of other surfaces or fog; of the analytic integrator, by virtual lights",
         update=_passes_changed,
     )
     use_pass_error: BoolProperty(
