@@ -69,8 +69,8 @@ def _candidates() -> Iterator[str]:
     package = importlib.util.find_spec("pyoidn")
     if package is not None and package.origin is not None:
         yield str(Path(package.origin).parent / "oidn" / "lib" / "libOpenImageDenoise.so")
-    for folder in (Path(bpy.app.binary_path).parent, Path(bpy.__file__).parent):
-        yield from map(str, sorted(folder.glob("lib/libOpenImageDenoise.so*")))
+    of_blender = Path(bpy.utils.resource_path("LOCAL")).parent
+    yield from map(str, sorted(of_blender.glob("lib/libOpenImageDenoise.so*")))
     of_system = find_library("OpenImageDenoise")
     if of_system is not None:
         yield of_system
@@ -84,20 +84,23 @@ def _library() -> Any | None:
         except OSError:
             continue
         handle, text, size, flag = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_size_t, ctypes.c_bool
-        library.set_flag = getattr(library, "oidnSetFilterBool", None) or library.oidnSetFilter1b  # before version 2
-        signatures = {
-            library.oidnNewDevice: ([ctypes.c_int], handle),
-            library.oidnCommitDevice: ([handle], None),
-            library.oidnReleaseDevice: ([handle], None),
-            library.oidnGetDeviceError: ([handle, ctypes.POINTER(text)], ctypes.c_int),
-            library.oidnNewFilter: ([handle, text], handle),
-            library.oidnSetSharedFilterImage: ([handle, text, handle, ctypes.c_int] + [size] * 5, None),
-            library.set_flag: ([handle, text, flag], None),
-            library.oidnCommitFilter: ([handle], None),
-            library.oidnExecuteFilter: ([handle], None),
-            library.oidnReleaseFilter: ([handle], None),
-        }
-        for function, (arguments, result) in signatures.items():
+        # Before version 2 these had other names.
+        library.set_filter_flag = getattr(library, "oidnSetFilterBool", None) or library.oidnSetFilter1b
+        library.set_device_flag = getattr(library, "oidnSetDeviceBool", None) or library.oidnSetDevice1b
+        signatures = [
+            (library.oidnNewDevice, [ctypes.c_int], handle),
+            (library.oidnCommitDevice, [handle], None),
+            (library.oidnReleaseDevice, [handle], None),
+            (library.oidnGetDeviceError, [handle, ctypes.POINTER(text)], ctypes.c_int),
+            (library.oidnNewFilter, [handle, text], handle),
+            (library.oidnSetSharedFilterImage, [handle, text, handle, ctypes.c_int] + [size] * 5, None),
+            (library.set_filter_flag, [handle, text, flag], None),
+            (library.set_device_flag, [handle, text, flag], None),
+            (library.oidnCommitFilter, [handle], None),
+            (library.oidnExecuteFilter, [handle], None),
+            (library.oidnReleaseFilter, [handle], None),
+        ]
+        for function, arguments, result in signatures:
             function.argtypes, function.restype = arguments, result
         return library
     return None
@@ -110,6 +113,8 @@ def _filtered(**images: Pixels) -> Pixels:
         raise DenoiserError(f"there is no denoiser. Fix: {HOW_TO_GET_IT}")
     device = library.oidnNewDevice(_DEVICE_CPU)
     try:
+        # It would bind Blender's own threads to cores; and in Debian's Blender the search for these ends in a crash.
+        library.set_device_flag(device, b"setAffinity", False)
         library.oidnCommitDevice(device)
         denoiser = library.oidnNewFilter(device, b"RT")
         output = np.zeros_like(next(iter(images.values())), order="C")
@@ -120,8 +125,8 @@ def _filtered(**images: Pixels) -> Pixels:
                 denoiser, name.encode(), buffer.ctypes.data, _FORMAT_FLOAT3, width, height, 0, 0, 0
             )
         if "color" in images:
-            library.set_flag(denoiser, b"hdr", True)
-            library.set_flag(denoiser, b"cleanAux", True)  # albedo and normal have been filtered
+            library.set_filter_flag(denoiser, b"hdr", True)
+            library.set_filter_flag(denoiser, b"cleanAux", True)  # albedo and normal have been filtered
         library.oidnCommitFilter(denoiser)
         library.oidnExecuteFilter(denoiser)
         library.oidnReleaseFilter(denoiser)
