@@ -237,6 +237,7 @@ def set_render(scene: bpy.types.Scene) -> None:
     cycles.sample_clamp_indirect, cycles.blur_glossy = 0, 1
     addon_utils.enable("pivot")
     scene.pivot.filter_glossy = 1  # without it the metals' caustics are specks
+    scene.pivot.samples, scene.pivot.denoise = 32, "INDIRECT"
     scene.render.engine = "PIVOT"
 
 
