@@ -145,10 +145,13 @@ class Viewport:
 def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
     """Selecting, renaming an object and the like come as updates that say of no part that it changed.
 
-    So does a value in a light's nodes, of the light; and a hidden object, of the scene: see _visible.
+    So does a value in a light's nodes, of the light; and a hidden object, of the scene, which is said to have changed
+    altogether when a setting of scene.pivot is: see _visible.
     """
     if isinstance(update.id, (bpy.types.Light, bpy.types.World)):
         return True
+    if isinstance(update.id, bpy.types.Scene):
+        return False
     if isinstance(update.id, bpy.types.Camera) or (
         isinstance(update.id, bpy.types.Object) and update.id.type == "CAMERA"
     ):
@@ -158,7 +161,7 @@ def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
 
 def _visible(depsgraph: bpy.types.Depsgraph) -> Any:
     """What an export depends on and updates do not tell from a selection."""
-    layer, world = depsgraph.view_layer, depsgraph.scene.world
+    layer, scene = depsgraph.view_layer, depsgraph.scene
     objects = [
         (
             visible.original.as_pointer(),
@@ -168,8 +171,10 @@ def _visible(depsgraph: bpy.types.Depsgraph) -> Any:
         )
         for visible in depsgraph.objects
     ]
-    override = layer.material_override
-    return objects, layer.use_solid, override and override.as_pointer(), world and world.as_pointer()
+    override, world = layer.material_override, scene.world
+    # The integrators leave out different things, which an export says.
+    of_scene = world and world.as_pointer(), scene.pivot.integrator
+    return objects, layer.use_solid, override and override.as_pointer(), of_scene
 
 
 def _print_warning(_: set[str], text: str) -> None:

@@ -55,6 +55,12 @@ def test_what_changes_no_picture_restarts_nothing(motion: Any) -> None:
     assert motion["hidden"]["sessions"] > 0
 
 
+def test_settings_start_samples_again_and_export_nothing(motion: Any) -> None:
+    assert motion["settings"]["sessions"] >= 2
+    assert motion["settings"]["exports"] == 0
+    assert motion["hidden"]["exports"] == 1
+
+
 def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: Any) -> None:
     assert motion["text"] == [
         "1 thing is not shown as set: light 'fill': lights without shadows are not supported, it casts them"

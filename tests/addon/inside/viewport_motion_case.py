@@ -41,14 +41,14 @@ class Watch:
         self.clear()
 
     def clear(self) -> None:
-        self.sessions = 0
+        self.sessions = self.exports = 0
         self.draws: list[int] = []  # k at each draw
         self.pictures: list[int] = []  # how many draws old, each picture once
         self._last: Any = None
 
     def install(self) -> None:
         viewport: Any = sys.modules["pivot.viewport"]
-        draw, start = viewport.Viewport.draw, viewport.Viewport._start
+        draw, start, export = viewport.Viewport.draw, viewport.Viewport._start, viewport.Viewport._export
         draw_texture, in_short = viewport._draw_texture, viewport._in_short
 
         def watched_draw(*arguments: Any) -> None:
@@ -59,6 +59,10 @@ class Watch:
             self.sessions += 1
             self.started_s = time.monotonic()
             start(*arguments)
+
+        def watched_export(*arguments: Any) -> None:
+            self.exports += 1
+            export(*arguments)
 
         def watched_texture(engine: Any, scene: Any, texture: Any, size: Any) -> None:
             if texture is not self._last:
@@ -74,10 +78,11 @@ class Watch:
             return self.text
 
         viewport.Viewport.draw, viewport.Viewport._start = watched_draw, watched_start
+        viewport.Viewport._export = watched_export
         viewport._draw_texture, viewport._in_short = watched_texture, watched_in_short
 
     def seen(self) -> dict[str, Any]:
-        return {"sessions": self.sessions, "draws": len(self.draws), "pictures": self.pictures}
+        return {"sessions": self.sessions, "exports": self.exports, "draws": len(self.draws), "pictures": self.pictures}
 
     def is_quiet(self) -> bool:
         return time.monotonic() - self.started_s > QUIET_S
@@ -158,6 +163,13 @@ def steps() -> Iterator[bool]:
     area.spaces.active.overlay.show_floor = False
     yield True
     result["idle"] = watch.seen()
+
+    watch.clear()
+    for scene.pivot.seed in range(1, 4):
+        yield False
+    scene.pivot.max_bounces = 2
+    yield True
+    result["settings"] = watch.seen()
 
     watch.clear()
     lamps[1].hide_set(True)
