@@ -92,6 +92,12 @@ class Gallery:
             self.render(renderer, missing + pictures)
         return True
 
+    def make_reference(self, renderer: Renderer, scene: str) -> None:
+        """Render what is missing of it."""
+        missing = [picture for picture in self._reference_parts(renderer, scene) if not self.file(picture).exists()]
+        if missing:
+            self.render(renderer, missing)
+
     def reference(self, renderer: Renderer, scene: str) -> tuple[Floats, Floats]:
         """Mean of the parts, and the variance of that mean."""
         parts = [self.load(picture)[0] for picture in self._reference_parts(renderer, scene)]
