@@ -17,6 +17,7 @@ from pivot_core.tables import ggx_sptd
 from tests.core import printed_forms
 from tests.core.ggx_reference import LEAST_VALUE, UP, Floats, ggx_under_cap, ggx_under_gaussian
 from tests.core.stability import Sweep, as_vector
+from tests.core.stability_bounces import bounce_renders
 from tests.core.stability_scenes import edge_renders
 from tests.core.test_stability import SWEEPS
 from tests.core.test_stability_linear import SWEEPS as LINEAR_SWEEPS
@@ -173,6 +174,6 @@ def gaussian_rows() -> Iterator[Row]:
 
 
 def render_rows() -> Iterator[Row]:
-    for made in edge_renders():
+    for made in (*edge_renders(), *bounce_renders()):
         error = made.error if made.is_finite else np.inf
         yield Row("renders", made.integrator, made.scene, None, error, made.bound, made.settings)
