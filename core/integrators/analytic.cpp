@@ -175,6 +175,7 @@ void add_virtual_lights(const Scene& scene, const RenderSettings& settings, cons
         const float size = size_of(light);
         gathered[i].add(light, Method::virtual_lights, size > 0.0f ? reflection.error[i] / size : 0.0f);
         gathered[i].indirect += light;
+        gathered[i].shadow_variance += reflection.shadow_variance[i];
     }
 }
 

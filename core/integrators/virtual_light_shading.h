@@ -14,7 +14,8 @@ namespace pivot {
 /// Of each lane.
 struct IndirectReflection {
     std::array<Rgb, batch_size> radiance{};
-    Lanes error{};  ///< predicted for the closed forms, as radiance
+    Lanes error{};            ///< predicted for the closed forms and for lights taken together, as radiance
+    Lanes shadow_variance{};  ///< of what the rays say, radiance squared
 };
 
 IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
