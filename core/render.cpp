@@ -8,7 +8,6 @@
 
 #include "core/integrators/analytic.h"
 #include "core/integrators/monte_carlo.h"
-#include "core/integrators/photons.h"
 
 namespace pivot {
 namespace {
@@ -137,8 +136,7 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    if (settings_.integrator == Integrator::analytic && settings_.indirect == Indirect::virtual_lights)
-        virtual_lights_ = trace_virtual_lights(*scene_, settings_);
+    if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
     if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else
@@ -303,7 +301,7 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const Sampler>
         for (std::size_t i = first; i < order.size() && samplers[order[i]].sample == index; ++i)
             together.push_back(rays[order[i]]);
         shaded.resize(together.size());
-        shade_analytic(*scene_, settings_, virtual_lights_, together, index, shaded);
+        shade_analytic(*scene_, settings_, lights_, together, index, shaded);
         for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
     }
 }

@@ -11,8 +11,8 @@
 #include "core/film/film.h"
 #include "core/film/pixel_filter.h"
 #include "core/film/sample_counts.h"
+#include "core/integrators/analytic_lights.h"
 #include "core/integrators/settings.h"
-#include "core/lights/virtual_lights.h"
 #include "core/sampling/sobol.h"
 #include "core/scene/scene.h"
 
@@ -43,7 +43,7 @@ class Session {
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
     const Film& film() const { return film_; }
     /// Once samples are done.
-    const VirtualLights& virtual_lights() const { return virtual_lights_; }
+    const VirtualLights& virtual_lights() const { return lights_.bounced; }
     /// The first few samples that were not finite and were left out, each by pixel and object.
     std::vector<std::string> bad_samples() const;
 
@@ -78,7 +78,7 @@ class Session {
 
     std::shared_ptr<Scene> scene_;
     RenderSettings settings_;
-    VirtualLights virtual_lights_;
+    AnalyticLights lights_;
     PixelFilter filter_;
     PixelGrid squares_;
     Film film_;

@@ -8,15 +8,13 @@
 #include <span>
 
 #include "core/film/film.h"
-#include "core/integrators/settings.h"
-#include "core/lights/virtual_lights.h"
-#include "core/scene/scene.h"
+#include "core/integrators/analytic_lights.h"
 
 namespace pivot {
 
 /// Camera rays, best neighbours. sample_index: which part of the fixed point sets these rays use; all samples of a
-/// pixel together use them whole. samples: one per ray. virtual_lights: empty where there is to be no indirect light.
-void shade_analytic(const Scene& scene, const RenderSettings& settings, const VirtualLights& virtual_lights,
+/// pixel together use them whole. samples: one per ray. lights: of gather_lights().
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
                     std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples);
 
 }  // namespace pivot

@@ -72,11 +72,11 @@ class LightCut {
     }
 
     /// Cuts both trees: roughly, for about how much light there is in all, and then as that says.
-    void cut(const VirtualLights& lights) {
+    void cut(const VirtualLightTree& diffuse, const VirtualLightTree& glossy) {
         const Batch one(1.0f);
         const auto in_both = [&](const auto& of_tree) {
-            if (!lights.diffuse.empty()) of_tree(lights.diffuse, false);
-            if (!lights.glossy.empty()) of_tree(lights.glossy, true);
+            if (!diffuse.empty()) of_tree(diffuse, false);
+            if (!glossy.empty()) of_tree(glossy, true);
         };
         total_ = Batch(0.0f);
         Batch sum(0.0f);
@@ -139,7 +139,7 @@ class LightCut {
         for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, share_seen_);
     }
 
-    IndirectReflection result() const {
+    VirtualReflection result() const {
         std::array<Batch, 3> diffuse;
         std::array<LobeSums<Batch>, 3> glossy;
         diffuse.fill(Batch(0.0f));
@@ -157,7 +157,7 @@ class LightCut {
             const Batch hidden = Batch(1.0f) - share_seen_;
             shadow_variance += sqr(size) * share_seen_ * hidden;
         }
-        IndirectReflection result;
+        VirtualReflection result;
         result.error = store(error);
         result.shadow_variance = store(shadow_variance);
         for (int c = 0; c < 3; ++c) {
@@ -373,11 +373,11 @@ class LightCut {
 
 }  // namespace
 
-IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
-                                          const VirtualLights& lights, const SurfaceBatch& batch,
-                                          std::uint32_t sample_index) {
+VirtualReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                         const VirtualLightTree& diffuse, const VirtualLightTree& glossy,
+                                         const SurfaceBatch& batch, std::uint32_t sample_index) {
     LightCut cut(batch, settings, sample_index);
-    cut.cut(lights);
+    cut.cut(diffuse, glossy);
     cut.refine();
     if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
     return cut.result();

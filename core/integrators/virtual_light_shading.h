@@ -12,14 +12,15 @@
 namespace pivot {
 
 /// Of each lane.
-struct IndirectReflection {
+struct VirtualReflection {
     std::array<Rgb, batch_size> radiance{};
     Lanes error{};            ///< predicted for the closed forms and for lights taken together, as radiance
     Lanes shadow_variance{};  ///< of what the rays say, radiance squared
 };
 
-IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
-                                          const VirtualLights& lights, const SurfaceBatch& batch,
-                                          std::uint32_t sample_index);
+/// Either tree may be empty.
+VirtualReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                         const VirtualLightTree& diffuse, const VirtualLightTree& glossy,
+                                         const SurfaceBatch& batch, std::uint32_t sample_index);
 
 }  // namespace pivot
