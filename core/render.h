@@ -68,8 +68,11 @@ class Session {
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
     std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y);
-    /// Analytic samples of one index go together in a batch: what is known by it they share.
-    void shade_by_index(std::span<const Ray> rays, std::span<const Sampler> samplers, std::span<Sample> samples) const;
+    /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
+    /// rising.
+    void shade_by_index(std::span<const Ray> rays, std::span<const Sampler> samplers,
+                        std::span<const std::uint32_t> pixels, std::span<const Vec2f> offsets,
+                        std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
     static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
     void see_center(Pixel& pixel, int x, int y) const;

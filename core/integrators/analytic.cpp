@@ -168,14 +168,12 @@ void add_lamps(const Scene& scene, const RenderSettings& settings, const Analyti
     }
 }
 
-void add_virtual_lights(const VirtualReflection& reflection, bool has_bounced, std::span<Gathered> gathered) {
-    for (std::size_t i = 0; i < gathered.size(); ++i) {
-        const Rgb& light = reflection.radiance[i];
-        const float size = size_of(light);
-        gathered[i].add(light, Method::virtual_lights, size > 0.0f ? reflection.error[i] / size : 0.0f);
-        gathered[i].shadow_variance += reflection.shadow_variance[i];
-        if (has_bounced) gathered[i].indirect += light;
-    }
+void add_virtual_lights(const VirtualReflection& reflection, const Base& surface, bool has_bounced,
+                        Gathered& gathered) {
+    const Rgb light = reflection.radiance(surface);
+    gathered.add(light, Method::virtual_lights, reflection.error);
+    gathered.shadow_variance += sqr(size_of(light) * reflection.shadow_deviation);
+    if (has_bounced) gathered.indirect += light;
 }
 
 void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
@@ -185,13 +183,12 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Shado
     if (!batch.has_diffuse && !batch.has_glossy) return;
     Unhidden light = unhidden_light(scene, settings, lights, batch);
     add_lamps(scene, settings, lights, points, batch, light, gathered);
-    const auto reflect = [&](const VirtualLightTree& diffuse, const VirtualLightTree& glossy) {
-        return reflect_virtual_lights(scene, settings, diffuse, glossy, batch, sample_index);
-    };
-    for (const VirtualLightTree& side : lights.emitted)
-        if (!side.empty()) add_virtual_lights(reflect(side, {}), false, gathered);
-    if (!lights.bounced.is_empty())
-        add_virtual_lights(reflect(lights.bounced.diffuse, lights.bounced.glossy), true, gathered);
+    for (const VirtualLightTree& side : lights.emitted) {
+        if (side.empty()) continue;
+        const auto reflected = reflect_virtual_lights(scene, settings, side, {}, batch, sample_index);
+        for (std::size_t i = 0; i < batch.count; ++i)
+            add_virtual_lights(reflected[i], shading[i].surface, false, gathered[i]);
+    }
     if (!scene.has_world()) return;
     for (std::size_t i = 0; i < shading.size(); ++i) {
         WorldReflection world = light.world[i];
@@ -236,6 +233,18 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
     return parts;
 }
 
+/// Adds what the parts reflect of light that bounced.
+void add_bounced(const Scene& scene, const RenderSettings& settings, const VirtualLights& bounced,
+                 std::uint32_t sample_index, const Parts& parts, std::span<const std::uint32_t> pixels,
+                 SharedReflections& shared, std::span<Gathered> light) {
+    std::vector<std::uint32_t> pixel_of;
+    for (const std::size_t sample : parts.sample) pixel_of.push_back(pixels[sample]);
+    const auto reflections =
+        shared.reflect(scene, settings, bounced, parts.shading, pixel_of, sample_index / bounced_samples_shared);
+    for (std::size_t i = 0; i < reflections.size(); ++i)
+        add_virtual_lights(reflections[i], parts.shading[i].surface, true, light[parts.sample[i]]);
+}
+
 /// Adds what a surface's lobes without closed forms reflect.
 void add_lobe_points(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
                      const ShadowPoints& points, const HitSurface& hit, Gathered& gathered) {
@@ -276,7 +285,8 @@ void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span
 }  // namespace
 
 void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                    std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples) {
+                    std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
+                    SharedReflections& shared, std::span<Sample> samples) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
@@ -326,7 +336,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
             samples);
         first += count;
     }
-    const auto [shading, sample_of] = parts_of(scene, settings, surfaces);
+    const Parts parts = parts_of(scene, settings, surfaces);
+    const auto& [shading, sample_of] = parts;
     std::vector<Gathered> light(samples.size());
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
@@ -335,6 +346,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
                     std::span(gathered).first(count));
         for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
     }
+    if (!lights.bounced.is_empty())
+        add_bounced(scene, settings, lights.bounced, sample_index, parts, pixels, shared, light);
     for (const HitSurface& surface : surfaces)
         if (surface.surface.has_lobes())
             add_lobe_points(scene, settings, lights, points, surface, light[surface.sample]);

@@ -24,6 +24,7 @@ constexpr float error_of_glossy_cell = 0.07f;
 constexpr float error_of_cosine = 0.02f;
 /// And for a first look at how much light there is.
 constexpr float rough_variance = 0.3f;
+constexpr std::uint32_t rays_per_light = 2;
 /// No light seems smaller than this, rad^2: sharpness has an end.
 constexpr float least_variance = 1e-7f;
 
@@ -53,12 +54,12 @@ Batch smoothstep(const Batch& x) {
 
 class LightCut {
    public:
-    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t sample_index)
+    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t turn)
         : batch_(batch),
           budget_(budget_of(settings)),
           fineness_(std::clamp(0.01f * settings.error_budget_percent / usual_budget, 0.05f, 10.0f)),
           method_(settings.virtual_light_method),
-          sample_index_(sample_index) {
+          turn_(turn) {
         if (batch.has_glossy) receiver_.emplace(batch.lobe);
         for (std::size_t i = 0; i < batch_size; ++i) normals_[i] = batch.lanes[i]->surface.bump.normal;
         normal_ = gather_vector([&](std::size_t i) { return normals_[i]; });
@@ -115,7 +116,7 @@ class LightCut {
         }
     }
 
-    /// One shadow ray to each light that matters; the rest is seen as these are in the mean.
+    /// A few shadow rays to each light that matters; the rest is seen as these are in the mean.
     void trace(const Scene& scene) {
         const Batch zero(0.0f);
         Batch seen(0.0f), all(0.0f);
@@ -127,11 +128,14 @@ class LightCut {
             const Batch size = size_of(cut);
             asked[k] = size > Batch(share_for_rays * fineness_) * total_ && first_lanes(batch_.count);
             if (!any(asked[k])) continue;
-            const PlaceInView place = place_in_view(*cut.light, asked[k]);
-            const RayOf<Batch> rays{origin, place.wi, zero,
-                                    select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
-            // Light from places that are all behind the surface comes through it.
-            cut.visible = select(place.is_faced, scene.visibility(rays), zero);
+            cut.visible = zero;
+            for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
+                const PlaceInView place = place_in_view(*cut.light, asked[k], turn_ * rays_per_light + ray);
+                const RayOf<Batch> rays{origin, place.wi, zero,
+                                        select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+                // Light from places that are all behind the surface comes through it.
+                cut.visible += select(place.is_faced, scene.visibility(rays), zero) * Batch(1.0f / rays_per_light);
+            }
             seen += select(asked[k], size * cut.visible, zero);
             all += select(asked[k], size, zero);
         }
@@ -139,11 +143,12 @@ class LightCut {
         for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, share_seen_);
     }
 
-    VirtualReflection result() const {
+    std::array<VirtualReflection, batch_size> result() const {
+        std::array<VirtualReflection, batch_size> result;
         std::array<Batch, 3> diffuse;
         std::array<LobeSums<Batch>, 3> glossy;
         diffuse.fill(Batch(0.0f));
-        Batch error(0.0f), shadow_variance(0.0f);
+        Batch error(0.0f), shadow_variance(0.0f), all(0.0f);
         for (const CutLight& cut : cut_) {
             for (int c = 0; c < 3; ++c) {
                 const auto channel = static_cast<std::size_t>(c);
@@ -152,26 +157,21 @@ class LightCut {
                 glossy[channel] += cut.glossy * power;
             }
             const Batch size = size_of(cut), of_glossy = glossy_size_of(cut);
+            all += size * cut.visible;
             error += cut.visible * (of_glossy * cut.glossy_error + Batch(error_of_cosine) * (size - of_glossy) +
                                     size * cut.cluster_error);
-            const Batch hidden = Batch(1.0f) - share_seen_;
-            shadow_variance += sqr(size) * share_seen_ * hidden;
+            shadow_variance += sqr(size) * share_seen_ * (Batch(1.0f) - share_seen_);
         }
-        VirtualReflection result;
-        result.error = store(error);
-        result.shadow_variance = store(shadow_variance);
-        for (int c = 0; c < 3; ++c) {
-            const auto channel = static_cast<std::size_t>(c);
-            const Lanes d = store(diffuse[channel]), plain = store(glossy[channel].plain),
-                        schlick = store(glossy[channel].schlick), dielectric = store(glossy[channel].dielectric);
-            for (std::size_t i = 0; i < batch_.count; ++i) {
-                const Base& surface = batch_.lanes[i]->surface;
-                const LobeFresnel& f = surface.fresnel;
-                float sum = surface.diffuse[c] * d[i] / pi<float>;
-                if (surface.has_glossy())
-                    sum += f.schlick_f0[c] * plain[i] + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick[i] +
-                           f.dielectric_f0[c] * plain[i] + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric[i];
-                result.radiance[i][c] = sum;
+        const Batch scale = inverse(max(all, tiny<Batch>));
+        const Lanes errors = store(error * scale), deviations = store(sqrt(shadow_variance) * scale);
+        for (std::size_t i = 0; i < batch_size; ++i)
+            result[i].error = errors[i], result[i].shadow_deviation = deviations[i];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Lanes d = store(diffuse[c]), plain = store(glossy[c].plain), schlick = store(glossy[c].schlick),
+                        dielectric = store(glossy[c].dielectric);
+            for (std::size_t i = 0; i < batch_size; ++i) {
+                result[i].diffuse[c] = d[i];
+                result[i].glossy[c] = {plain[i], schlick[i], dielectric[i]};
             }
         }
         return result;
@@ -186,10 +186,10 @@ class LightCut {
 
     /// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
     /// that does.
-    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted) const {
+    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted, std::uint32_t turn) const {
         PlaceInView result;
         for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
-            const LightPlace& place = light.places[(sample_index_ + i) % VirtualLight::place_count];
+            const LightPlace& place = light.places[(turn + i) % VirtualLight::place_count];
             const Vec3b to_place = broadcast(place.position) - batch_.position;
             const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
             const Vec3b wi = to_place * inverse(distance);
@@ -362,7 +362,7 @@ class LightCut {
     Batch budget_;
     float fineness_;  ///< 1 for the usual budget, less for a finer cut
     VirtualLightMethod method_;
-    std::uint32_t sample_index_;
+    std::uint32_t turn_;
     std::optional<GgxGaussianReceiver<Batch>> receiver_;
     std::array<Vec3f, batch_size> normals_;
     Vec3b normal_, normal_geometric_;
@@ -373,10 +373,24 @@ class LightCut {
 
 }  // namespace
 
-VirtualReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
-                                         const VirtualLightTree& diffuse, const VirtualLightTree& glossy,
-                                         const SurfaceBatch& batch, std::uint32_t sample_index) {
-    LightCut cut(batch, settings, sample_index);
+Rgb VirtualReflection::radiance(const Base& surface) const {
+    const LobeFresnel& f = surface.fresnel;
+    Rgb result;
+    for (int c = 0; c < 3; ++c) {
+        const auto& [plain, schlick, dielectric] = glossy[static_cast<std::size_t>(c)];
+        result[c] = surface.diffuse[c] * diffuse[static_cast<std::size_t>(c)] / pi<float>;
+        if (surface.has_glossy())
+            result[c] += f.schlick_f0[c] * plain + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick +
+                         f.dielectric_f0[c] * plain + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric;
+    }
+    return result;
+}
+
+std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                                                 const VirtualLightTree& diffuse,
+                                                                 const VirtualLightTree& glossy,
+                                                                 const SurfaceBatch& batch, std::uint32_t turn) {
+    LightCut cut(batch, settings, turn);
     cut.cut(diffuse, glossy);
     cut.refine();
     if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
