@@ -98,7 +98,7 @@ py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py
     const auto area_integral = [&](const auto& gather) {
         const GgxLobe<Batch> lobe = gather_lobe(gather(alphas), gather(wos));
         const AreaOutline<Batch> outline{gather(centers).direction(), gather(us).direction(), gather(vs).direction(),
-                                         ellipse};
+                                         ellipse ? AreaShape::ellipse : AreaShape::parallelogram};
         return integrate(lobe, outline, Batch(static_cast<float>(error_budget / 100)));
     };
     return evaluate_batches(common, area_integral);

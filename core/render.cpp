@@ -9,7 +9,6 @@
 
 #include "core/integrators/analytic.h"
 #include "core/integrators/monte_carlo.h"
-#include "core/integrators/photons.h"
 
 namespace pivot {
 namespace {
@@ -139,8 +138,7 @@ void Session::run() {
     scene_->commit();
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    if (settings_.integrator == Integrator::analytic && settings_.indirect == Indirect::virtual_lights)
-        virtual_lights_ = trace_virtual_lights(*scene_, settings_);
+    if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
     if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else
@@ -225,10 +223,11 @@ struct Session::SamplePass {
 bool Session::render_round(const Round& round, std::uint32_t samples) {
     const auto tiles = make_tiles(scene_->camera().window, filter_.reach_px());
     const std::uint32_t most = round.counts.empty() ? max_samples_per_pass : max_samples_per_sparse_pass;
+    const std::uint32_t first_count = lights_.bounced.is_empty() ? 1u : bounced_samples_shared;
     // An analytic picture is the same for all seeds.
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
-        const std::uint32_t count = std::min({std::max(done, 1u), most, samples - done});
+        const std::uint32_t count = std::min({std::max(done, first_count), most, samples - done});
         const SamplePass pass(done, done + count, round.first_index, samples, filter_, seed,
                               round.pilot.empty() && round.counts.empty() ? 1u : places_when_adaptive);
         for (const std::vector<Tile>& of_one_colour : tiles)
@@ -305,19 +304,36 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
 }
 
 void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
+                             std::span<const std::uint32_t> pixels, std::span<const Vec2f> offsets,
                              std::span<Sample> samples) const {
     std::vector<std::size_t> order(rays.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return indices[i]; });
+    // Of samples that share, those near the pixel's centre come first: what they find stands for the pixel.
+    const std::uint32_t first_index = std::ranges::min(indices);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+        const std::uint32_t index = indices[i];
+        const Vec2f& offset = offsets[index - first_index];
+        return std::tuple(index / bounced_samples_shared, dot(offset, offset), index);
+    });
     std::vector<Ray> together;
+    std::vector<std::uint32_t> pixels_of_together;
     std::vector<Sample> shaded;
+    std::optional<SharedReflections> shared;
+    std::uint32_t shared_by = 0;
     for (std::size_t first = 0; first < order.size(); first += together.size()) {
         const std::uint32_t index = indices[order[first]];
+        if (const std::uint32_t by = index / bounced_samples_shared; !shared || by != shared_by) {
+            shared.emplace(pixels.back() + 1);
+            shared_by = by;
+        }
         together.clear();
-        for (std::size_t i = first; i < order.size() && indices[order[i]] == index; ++i)
+        pixels_of_together.clear();
+        for (std::size_t i = first; i < order.size() && indices[order[i]] == index; ++i) {
             together.push_back(rays[order[i]]);
+            pixels_of_together.push_back(pixels[order[i]]);
+        }
         shaded.resize(together.size());
-        shade_analytic(*scene_, settings_, virtual_lights_, together, index, shaded);
+        shade_analytic(*scene_, settings_, lights_, together, pixels_of_together, index, *shared, shaded);
         for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
     }
 }
@@ -328,6 +344,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     std::vector<Ray> rays;
     std::vector<std::uint32_t> indices;
     std::vector<Sampler> samplers;
+    std::vector<std::uint32_t> pixels;  // of each ray, from x0 on
     for (int x = x0; x < x1; ++x) {
         const int frame_x = camera.window.x0 + x;
         const Vec2f center(static_cast<float>(frame_x) + 0.5f, static_cast<float>(frame_y) + 0.5f);
@@ -339,6 +356,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         const std::vector<Vec2f>& offsets = pass.places_of(frame_x, frame_y).offsets;
         for (std::size_t k = 0; k < count; ++k) {
             rays.push_back(camera.ray(center + offsets[k]));
+            pixels.push_back(static_cast<std::uint32_t>(x - x0));
             const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
             indices.push_back(index);
             samplers.push_back(pixel_sampler(column, line, round.seed, pass.log2_samples, index));
@@ -347,7 +365,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     std::vector<Sample> samples(rays.size());
     if (rays.empty()) return samples;
     if (settings_.integrator == Integrator::analytic) {
-        shade_by_index(rays, indices, samples);
+        shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
     }

@@ -11,8 +11,8 @@
 #include "core/film/film.h"
 #include "core/film/pixel_filter.h"
 #include "core/film/sample_counts.h"
+#include "core/integrators/analytic_lights.h"
 #include "core/integrators/settings.h"
-#include "core/lights/virtual_lights.h"
 #include "core/sampling/sobol.h"
 #include "core/scene/scene.h"
 
@@ -43,7 +43,7 @@ class Session {
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
     const Film& film() const { return film_; }
     /// Once samples are done.
-    const VirtualLights& virtual_lights() const { return virtual_lights_; }
+    const VirtualLights& virtual_lights() const { return lights_.bounced; }
     /// The first few samples that were not finite and were left out, each by pixel and object.
     std::vector<std::string> bad_samples() const;
 
@@ -68,8 +68,10 @@ class Session {
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
     std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y);
-    /// Analytic samples of one index go together in a batch: what is known by it they share.
+    /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
+    /// rising.
     void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
+                        std::span<const std::uint32_t> pixels, std::span<const Vec2f> offsets,
                         std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
     static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
@@ -79,7 +81,7 @@ class Session {
 
     std::shared_ptr<Scene> scene_;
     RenderSettings settings_;
-    VirtualLights virtual_lights_;
+    AnalyticLights lights_;
     PixelFilter filter_;
     PixelGrid squares_;
     Film film_;

@@ -18,7 +18,7 @@ import bpy  # noqa: F401  the addon's canvas draws by it
 import addon_utils
 import numpy as np
 
-from tests.core.stability_table import Row, function_rows, light_rows, render_rows
+from tests.core.stability_table import Row, function_rows, gaussian_rows, light_rows, render_rows
 
 INK, GREY, PALE = (0.13, 0.13, 0.15), (0.45, 0.45, 0.48), (0.92, 0.92, 0.93)
 PRINTED, OURS, BOUND = (0.85, 0.3, 0.2), (0.05, 0.35, 0.7), (0.6, 0.6, 0.63)
@@ -96,7 +96,7 @@ def draw(path: Path, rows: list[Row]) -> None:
 
 def main(output: Path) -> None:
     addon_utils.enable("pivot")
-    rows = [*function_rows(), *light_rows(), *render_rows()]
+    rows = [*function_rows(), *light_rows(), *gaussian_rows(), *render_rows()]
     output.parent.mkdir(parents=True, exist_ok=True)
     csv_path, png_path = output.with_suffix(".csv"), output.with_suffix(".png")
     write_csv(csv_path, rows)

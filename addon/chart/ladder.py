@@ -1,5 +1,5 @@
-"""The settings a chart compares: lines of them, a method each, from fast to accurate. Direct light only: the one light
-transport that all methods have.
+"""The settings a chart compares: lines of them, a method each, from fast to accurate. Direct light, the one light
+transport that all methods have; and light that bounced once, for the methods that have it.
 """
 
 from __future__ import annotations
@@ -22,11 +22,13 @@ class Rung:
 
 @dataclass(frozen=True)
 class Ladder:
-    """width_px: of the charted picture. The reference is Monte Carlo of reference_samples samples, in parts."""
+    """width_px: of the charted picture. The reference is Monte Carlo of reference_samples samples, in parts, of as
+    many bounces as the rungs' settings say."""
 
     rungs: tuple[Rung, ...]
     width_px: int
     reference_samples: int
+    max_bounces: int = 0
 
     def of(self, renderer: str) -> list[Rung]:
         return [rung for rung in self.rungs if rung.renderer == renderer]
@@ -60,7 +62,25 @@ def cycles_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
         yield Rung("CYCLES", "Cycles", f"{count}", count)
 
 
+def bounce_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], lights: tuple[int, ...]) -> Iterator[Rung]:
+    """Light that bounced once: by paths, and by so many virtual lights."""
+    once = {"max_bounces": 1}
+    for samples in monte_carlo:
+        settings = {"integrator": "MONTE_CARLO", "light_sampling": "JOINT"} | once
+        yield Rung("PIVOT", "Monte Carlo, joint", f"{samples}", samples, settings)
+    virtual = {"integrator": "ANALYTIC", "indirect": "VSGL"} | once
+    for samples in analytic:
+        yield Rung("PIVOT", "Virtual lights", f"{samples}", samples, virtual)
+    for count in lights:
+        settings = virtual | {"virtual_lights": count}
+        yield Rung("PIVOT", "Virtual lights, by number", f"{count}", max(analytic), settings)
+    for samples in monte_carlo:
+        yield Rung("CYCLES", "Cycles", f"{samples}", samples, once)
+
+
 FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 256), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
 PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 64)), 160, 1024)
 SMALL = Ladder((*pivot_rungs((1, 8), (1,), 4), *cycles_rungs((1, 8))), 32, 128)
-LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL}
+BOUNCE = Ladder(tuple(bounce_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), (256, 1024, 16384))), 240, 4096, max_bounces=1)
+SMALL_BOUNCE = Ladder(tuple(bounce_rungs((1, 8), (1,), (64,))), 32, 128, max_bounces=1)
+LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL, "BOUNCE": BOUNCE, "SMALL_BOUNCE": SMALL_BOUNCE}

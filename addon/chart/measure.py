@@ -58,6 +58,8 @@ class Pictures:
 def reference_rung(renderer: str, ladder: Ladder) -> Rung:
     """One part of a renderer's reference. Each renderer is held against its own."""
     settings: dict[str, Any] = REFERENCE_SETTINGS if renderer == "PIVOT" else {}
+    if ladder.max_bounces > 0:
+        settings = settings | {"max_bounces": ladder.max_bounces}
     return Rung(renderer, "reference", "", ladder.reference_samples // REFERENCE_PARTS, settings)
 
 

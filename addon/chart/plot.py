@@ -20,6 +20,8 @@ COLORS: dict[str, Color] = {
     "Analytic": (0.75, 0.1, 0.1),
     "Analytic, by budget": (0.95, 0.45, 0.1),
     "Analytic, exact": (0.9, 0.4, 0.5),
+    "Virtual lights": (0.75, 0.1, 0.1),
+    "Virtual lights, by number": (0.95, 0.45, 0.1),
     "Analytic, SPTD": (0.55, 0.3, 0.65),
     "Analytic, LTC": (0.75, 0.6, 0.85),
     "Cycles": (0.15, 0.5, 0.25),
@@ -69,7 +71,8 @@ def decade(exponent: int) -> str:
 def titles(scene: str, ladder: Ladder) -> tuple[str, str]:
     """Title and note of a scene's chart."""
     reference = f"against {ladder.reference_samples} samples of each renderer"
-    note = f"Direct light, {ladder.width_px} px wide, {reference}. Numbers: samples, or the error budget."
+    light = "Direct light" if ladder.max_bounces == 0 else f"Bounces: {ladder.max_bounces}"
+    note = f"{light}, {ladder.width_px} px wide, {reference}. Numbers: samples, the error budget, or lights."
     return f"{scene}: speed against accuracy", note
 
 

@@ -1,4 +1,5 @@
-"""Pictures of Blender's current scene and the CPU seconds they cost: direct light, box filter, no denoiser.
+"""Pictures of Blender's current scene and the CPU seconds they cost: direct light if the settings' max_bounces say
+nothing else, box filter, no denoiser.
 
 A renderer is a context manager, ready when entered; render(settings, samples, seed) returns the picture (height, width,
 3), bottom row first, and the seconds of the render alone, all threads together.
@@ -67,13 +68,12 @@ def _pivot(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Re
     export_camera(context, engine, render_frame(scene.render, engine.resolution_x, engine.resolution_y))
 
     def render(settings: dict[str, Any], samples: int, seed: int) -> tuple[Floats, float]:
-        changed = dict(settings)
+        changed = {"max_bounces": 0} | settings
         if "error_budget" in changed:
             changed["error_budget_percent"] = changed.pop("error_budget")
         chosen = context.core.RenderSettings(
             samples=samples,
             seed=seed,
-            max_bounces=0,
             threads=scene.render.threads,
             pixel_filter="BOX",
             filter_width_px=1.0,
@@ -102,15 +102,14 @@ def with_cycles(scene: bpy.types.Scene, work: Callable[[Render], None]) -> None:
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.max_bounces = 0
     cycles.pixel_filter_type = "BOX"
     for layer in scene.view_layers:
         layer.samples = 0  # else it overrides the scene's
     path = Path(bpy.app.tempdir) / "chart.exr"
     scene.render.filepath = str(path)
 
-    def picture(samples: int, seed: int) -> tuple[Floats, float]:
-        cycles.samples, cycles.seed = samples, seed
+    def picture(samples: int, seed: int, bounces: int = 0) -> tuple[Floats, float]:
+        cycles.samples, cycles.seed, cycles.max_bounces = samples, seed, bounces
         start_s = time.process_time()
         bpy.ops.render.render(write_still=True, scene=scene.name)
         cpu_s = time.process_time() - start_s
@@ -124,9 +123,12 @@ def with_cycles(scene: bpy.types.Scene, work: Callable[[Render], None]) -> None:
 
     picture(1, 0)  # loads what is loaded once
     few, many = 1, 65
-    sample_s = (picture(many, 0)[1] - picture(few, 0)[1]) / (many - few)
+    sample_s: dict[int, float] = {}  # by the number of bounces
 
     def render(settings: dict[str, Any], samples: int, seed: int) -> tuple[Floats, float]:
-        return picture(samples, seed)[0], samples * sample_s
+        bounces = settings.get("max_bounces", 0)
+        if bounces not in sample_s:
+            sample_s[bounces] = (picture(many, 0, bounces)[1] - picture(few, 0, bounces)[1]) / (many - few)
+        return picture(samples, seed, bounces)[0], samples * sample_s[bounces]
 
     work(render)

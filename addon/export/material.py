@@ -152,9 +152,9 @@ class MaterialTable:
         return Owner(_where(material, user), self._context.reporter, self._program(), material)
 
     def _warn_of_emission(self, surface: Surface, owner: Owner) -> None:
-        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and not surface.emission.is_always(0):
+        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and not surface.emission.is_constant:
             self._context.reporter.warn(
-                f"{owner.name}: in the analytic integrator its emission is shown, but lights nothing. "
+                f"{owner.name}: in the analytic integrator its triangles light others by a mean of each, in grey. "
                 "Fix: use Monte Carlo"
             )
 

@@ -117,10 +117,11 @@ struct Unhidden {
         return size_of(reflection.diffuse[lane]) + size_of(reflection.glossy[lane]);
     }
 };
-Unhidden unhidden_light(const Scene& scene, const RenderSettings& settings, const SurfaceBatch& batch) {
+Unhidden unhidden_light(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                        const SurfaceBatch& batch) {
     Unhidden light;
-    light.lamps.reserve(scene.lamps().size());
-    for (const Light& lamp : scene.lamps()) {
+    light.lamps.reserve(lights.exact.size());
+    for (const Light& lamp : lights.exact) {
         light.lamps.push_back(shade_light(lamp, batch, settings));
         for (std::size_t i = 0; i < batch.count; ++i) light.totals[i] += light.size(light.lamps.size() - 1, i);
     }
@@ -146,10 +147,10 @@ std::vector<std::size_t> brightest_first(const Unhidden& light, std::size_t lane
     return order;
 }
 
-void add_lamps(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-               const SurfaceBatch& batch, Unhidden& light, std::span<Gathered> gathered) {
+void add_lamps(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+               const ShadowPoints& points, const SurfaceBatch& batch, Unhidden& light, std::span<Gathered> gathered) {
     for (const std::size_t k : brightest_first(light, batch.count)) {
-        const Light& lamp = scene.lamps()[k];
+        const Light& lamp = lights.exact[k];
         Reflection reflection = reflection_of(light.lamps[k]);
         if (settings.occlusion == Occlusion::ray_traced) {
             reflection = seen_by_rays(light.lamps[k], scene, points, std::span(light.totals).first(batch.count));
@@ -167,25 +168,27 @@ void add_lamps(const Scene& scene, const RenderSettings& settings, const ShadowP
     }
 }
 
-void add_virtual_lights(const Scene& scene, const RenderSettings& settings, const VirtualLights& lights,
-                        std::uint32_t sample_index, const SurfaceBatch& batch, std::span<Gathered> gathered) {
-    const IndirectReflection reflection = reflect_virtual_lights(scene, settings, lights, batch, sample_index);
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const Rgb& light = reflection.radiance[i];
-        const float size = size_of(light);
-        gathered[i].add(light, Method::virtual_lights, size > 0.0f ? reflection.error[i] / size : 0.0f);
-        gathered[i].indirect += light;
-    }
+void add_virtual_lights(const VirtualReflection& reflection, const Base& surface, bool has_bounced,
+                        Gathered& gathered) {
+    const Rgb light = reflection.radiance(surface);
+    gathered.add(light, Method::virtual_lights, reflection.error);
+    gathered.shadow_variance += sqr(size_of(light) * reflection.shadow_deviation);
+    if (has_bounced) gathered.indirect += light;
 }
 
 void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                 const VirtualLights& virtual_lights, std::uint32_t sample_index, std::span<const ShadingPoint> shading,
+                 const AnalyticLights& lights, std::uint32_t sample_index, std::span<const ShadingPoint> shading,
                  std::span<Gathered> gathered) {
     const SurfaceBatch batch = make_batch(shading);
     if (!batch.has_diffuse && !batch.has_glossy) return;
-    Unhidden light = unhidden_light(scene, settings, batch);
-    add_lamps(scene, settings, points, batch, light, gathered);
-    if (!virtual_lights.is_empty()) add_virtual_lights(scene, settings, virtual_lights, sample_index, batch, gathered);
+    Unhidden light = unhidden_light(scene, settings, lights, batch);
+    add_lamps(scene, settings, lights, points, batch, light, gathered);
+    for (const VirtualLightTree& side : lights.emitted) {
+        if (side.empty()) continue;
+        const auto reflected = reflect_virtual_lights(scene, settings, side, {}, batch, sample_index);
+        for (std::size_t i = 0; i < batch.count; ++i)
+            add_virtual_lights(reflected[i], shading[i].surface, false, gathered[i]);
+    }
     if (!scene.has_world()) return;
     for (std::size_t i = 0; i < shading.size(); ++i) {
         WorldReflection world = light.world[i];
@@ -230,9 +233,21 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
     return parts;
 }
 
+/// Adds what the parts reflect of light that bounced.
+void add_bounced(const Scene& scene, const RenderSettings& settings, const VirtualLights& bounced,
+                 std::uint32_t sample_index, const Parts& parts, std::span<const std::uint32_t> pixels,
+                 SharedReflections& shared, std::span<Gathered> light) {
+    std::vector<std::uint32_t> pixel_of;
+    for (const std::size_t sample : parts.sample) pixel_of.push_back(pixels[sample]);
+    const auto reflections =
+        shared.reflect(scene, settings, bounced, parts.shading, pixel_of, sample_index / bounced_samples_shared);
+    for (std::size_t i = 0; i < reflections.size(); ++i)
+        add_virtual_lights(reflections[i], parts.shading[i].surface, true, light[parts.sample[i]]);
+}
+
 /// Adds what a surface's lobes without closed forms reflect.
-void add_lobe_points(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                     const HitSurface& hit, Gathered& gathered) {
+void add_lobe_points(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                     const ShadowPoints& points, const HitSurface& hit, Gathered& gathered) {
     for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
         if constexpr (!L::has_closed_form) {
             Surface alone(make_base(BaseMaterialOf<float>{}, hit.surface.wo_local));
@@ -242,7 +257,7 @@ void add_lobe_points(const Scene& scene, const RenderSettings& settings, const S
                 gathered.add(reflection.radiance, Method::lobe_directions, reflection.error);
                 gathered.shadow_variance += reflection.shadow_variance;
             };
-            for (const Light& light : scene.lamps())
+            for (const Light& light : lights.exact)
                 add(reflect_light(scene, settings, points, light, hit.point, alone));
             if (scene.has_world()) add(reflect_world(scene, settings, points, hit.point, alone));
         }
@@ -269,8 +284,9 @@ void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span
 
 }  // namespace
 
-void shade_analytic(const Scene& scene, const RenderSettings& settings, const VirtualLights& virtual_lights,
-                    std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples) {
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                    std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
+                    SharedReflections& shared, std::span<Sample> samples) {
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
@@ -320,17 +336,21 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const Vi
             samples);
         first += count;
     }
-    const auto [shading, sample_of] = parts_of(scene, settings, surfaces);
+    const Parts parts = parts_of(scene, settings, surfaces);
+    const auto& [shading, sample_of] = parts;
     std::vector<Gathered> light(samples.size());
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
         std::array<Gathered, batch_size> gathered{};
-        shade_batch(scene, settings, points, virtual_lights, sample_index, std::span(shading).subspan(first, count),
+        shade_batch(scene, settings, points, lights, sample_index, std::span(shading).subspan(first, count),
                     std::span(gathered).first(count));
         for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
     }
+    if (!lights.bounced.is_empty())
+        add_bounced(scene, settings, lights.bounced, sample_index, parts, pixels, shared, light);
     for (const HitSurface& surface : surfaces)
-        if (surface.surface.has_lobes()) add_lobe_points(scene, settings, points, surface, light[surface.sample]);
+        if (surface.surface.has_lobes())
+            add_lobe_points(scene, settings, lights, points, surface, light[surface.sample]);
     for (const HitSurface& surface : surfaces) {
         Sample& sample = samples[surface.sample];
         const Gathered& gathered = light[surface.sample];

@@ -8,15 +8,19 @@
 #include <span>
 
 #include "core/film/film.h"
-#include "core/integrators/settings.h"
-#include "core/lights/virtual_lights.h"
-#include "core/scene/scene.h"
+#include "core/integrators/analytic_lights.h"
+#include "core/integrators/shared_reflections.h"
 
 namespace pivot {
 
-/// Camera rays, best neighbours. sample_index: which part of the fixed point sets these rays use; all samples of a
-/// pixel together use them whole. samples: one per ray. virtual_lights: empty where there is to be no indirect light.
-void shade_analytic(const Scene& scene, const RenderSettings& settings, const VirtualLights& virtual_lights,
-                    std::span<const Ray> camera_rays, std::uint32_t sample_index, std::span<Sample> samples);
+/// So many successive samples of a pixel share what is known of light that bounced.
+inline constexpr std::uint32_t bounced_samples_shared = 4;
+
+/// Camera rays, best neighbours, and the pixel of each, counted as `shared` does. sample_index: which part of the fixed
+/// point sets these rays use; all samples of a pixel together use them whole. lights: of gather_lights(). shared: of
+/// the same samples / bounced_samples_shared. samples: one per ray.
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                    std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
+                    SharedReflections& shared, std::span<Sample> samples);
 
 }  // namespace pivot

@@ -10,7 +10,7 @@ namespace {
 AreaOutline<Batch> local_outline(const AreaLight& light, const SurfaceBatch& batch) {
     const auto local = [&](const Vec3b& v) { return batch.frame.to_local(v); };
     return {local(broadcast(light.center) - batch.position), local(broadcast(light.half_u)),
-            local(broadcast(light.half_v)), light.shape == AreaShape::ellipse};
+            local(broadcast(light.half_v)), light.shape};
 }
 
 /// One LTC of the table, clipped at the horizon, with Fresnel at the mirror direction.
@@ -20,7 +20,9 @@ LobeIntegral<Batch> integrate_ltc(const SurfaceBatch& batch, const AreaLight& li
         const auto& [point, surface, bent_cone] = *batch.lanes[i];
         const Vec3f center = point.frame.to_local(light.center - point.position);
         const Vec3f u = point.frame.to_local(light.half_u), v = point.frame.to_local(light.half_v);
-        std::vector<Vec3f> outline{center - u - v, center + u - v, center + u + v, center - u + v};
+        const auto corners = AreaOutline<float>{center, u, v, light.shape}.corners();
+        std::vector<Vec3f> outline(corners.begin(),
+                                   light.shape == AreaShape::triangle ? corners.end() - 1 : corners.end());
         if (light.shape == AreaShape::ellipse) {
             outline.clear();
             for (int k = 0; k < 32; ++k) {
@@ -45,9 +47,16 @@ LobeIntegral<Batch> integrate_glossy(const SurfaceBatch& batch, const AreaLight&
     return integrate(batch.lobe, outline, max(budget_of(settings), Batch(5e-4f)));
 }
 
-/// Point k of a light's rim; a rectangle's corners are among them.
+/// Point k of a light's rim; a rectangle's corners are among them, and a triangle's nearly.
 Vec3f rim_of(const AreaLight& light, std::uint32_t k) {
     Vec2f xy = rim_point(k);
+    if (light.shape == AreaShape::triangle) {
+        constexpr std::array<Vec2f, 3> corners{Vec2f(-1.0f, 0.0f), Vec2f(1.0f, -1.0f), Vec2f(1.0f, 1.0f)};
+        const float along = 3.0f * static_cast<float>(k) / rim_points, part = along - std::floor(along);
+        const auto corner = static_cast<std::size_t>(along);
+        xy = glm::mix(corners[corner], corners[(corner + 1) % 3], part);
+        xy = glm::mix(Vec2f(1.0f / 3.0f, 0.0f), xy, 0.99f);
+    }
     if (light.shape == AreaShape::parallelogram) xy *= 0.99f / std::max(std::abs(xy.x), std::abs(xy.y));
     return light.center + xy.x * light.half_u + xy.y * light.half_v;
 }
@@ -57,7 +66,13 @@ Vec3f rim_of(const AreaLight& light, std::uint32_t k) {
 AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& batch, const RenderSettings& settings)
     : light_(light), batch_(batch) {
     const AreaOutline<Batch> outline = local_outline(light, batch);
-    const Lanes facing = store(dot(batch.position - broadcast(light.center), broadcast(light.normal)));
+    Batch height = dot(batch.position - broadcast(light.center), broadcast(light.normal));
+    // Within rounding of its plane a triangle would be the horizon, or all of the sky.
+    if (light.is_two_sided()) {
+        const Batch error_m = gather([&](std::size_t i) { return batch.lanes[i]->point.error_m; });
+        height = abs(height) - Batch(surface_error_m(light)) - error_m;
+    }
+    const Lanes facing = store(height);
     if (std::none_of(facing.begin(), facing.end(), [](float f) { return f > 0.0f; }) || !any(is_above(outline))) return;
     if (batch.has_glossy)
         put_glossy(batch, integrate_glossy(batch, light, outline, settings), light.radiance, reflection_);
@@ -85,11 +100,14 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
                 const float distance_m = length(d);
                 const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
                 if (!(wi_local.z > 0.0f)) continue;
-                const float solid_angle = -dot(wi, light_.normal) / sqr(distance_m);
+                const float cosine = -dot(wi, normal_towards(light_, point.position));
+                const float solid_angle = cosine / sqr(distance_m);
+                const float error_m = light_.is_two_sided() ? surface_error_m(light_) + point.error_m : 0.0f;
                 const bool has_lobe = !is_rim && surface.has_glossy();
                 const float lobe = has_lobe ? ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha) : 0.0f;
                 rays.add(
-                    {point.ray_origin(wi), wi, 0.0f, distance_m * (1.0f - 1e-5f)}, point.faces(wi),
+                    {point.ray_origin(wi), wi, 0.0f, distance_m * shadow_reach - error_m / std::max(cosine, 1e-6f)},
+                    point.faces(wi),
                     {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe, is_rim ? 1.0f : 0.0f});
             }
         };

@@ -1,4 +1,4 @@
-// A rectangle, disk or ellipse over a batch of surfaces.
+// A rectangle, disk, ellipse, or a triangle of a mesh, which shines from both sides, over a batch of surfaces.
 #pragma once
 
 #include "core/integrators/cap_light_shading.h"

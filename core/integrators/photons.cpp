@@ -7,6 +7,7 @@
 
 #include "core/distributions/spherical_gaussian.h"
 #include "core/integrators/arrival.h"
+#include "core/integrators/cell_space.h"
 #include "core/sampling/sobol.h"
 #include "core/sampling/warp.h"
 #include "core/simd/pack.h"
@@ -137,33 +138,6 @@ struct Deposits {
 };
 
 bool carries_light(const Rgb& power) { return max_component(abs(power)) > 0.0f; }
-
-/// Where an object's cells lie: its own space, as large as it stands in the world.
-class CellSpace {
-   public:
-    explicit CellSpace(const Transform& world_from_object) {
-        if (!world_from_object.is_invertible()) return;
-        object_from_world_ = world_from_object.inverse();
-        scale_ = std::cbrt(std::abs(
-            dot(world_from_object.linear[0], cross(world_from_object.linear[1], world_from_object.linear[2]))));
-        axis_from_world_ = glm::transpose(world_from_object.linear);
-    }
-    LightDeposit deposit(std::uint32_t id, std::uint32_t owner, const LightPlace& place, const Vec3f& axis,
-                         const Rgb& power_w) const {
-        return {place,
-                axis,
-                power_w,
-                id,
-                owner,
-                object_from_world_.point(place.position) * scale_,
-                normalize(axis_from_world_ * axis)};
-    }
-
-   private:
-    Transform object_from_world_{};
-    Mat3<float> axis_from_world_{1.0f};
-    float scale_ = 1.0f;
-};
 
 /// What one base of a surface sends on: its diffuse part towards everywhere, and its glossy one towards a few
 /// directions that its lobe chooses.

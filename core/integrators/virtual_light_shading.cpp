@@ -12,8 +12,19 @@ constexpr float largest_variance = 0.005f;
 constexpr float part_of_lobe = 0.2f, part_of_distance = 0.1f;
 /// What of all its light a light gives a point: from where on its error counts, it is worth caps, and a ray.
 constexpr float share_to_open = 0.005f, share_for_caps = 0.004f, share_for_rays = 0.002f;
+/// All of these are for this error budget, relative.
+constexpr float usual_budget = 0.02f;
+/// What lights seen as one are off by, relative to their light, where their variance is as much as is allowed: of
+/// clusters, and of leaves, which are no finer.
+constexpr float error_of_cluster = 0.1f, most_error_of_cluster = 0.5f;
+/// And what lights that glossy surfaces send on are off by in any case: a Gaussian of places and one of directions do
+/// not know that the one goes with the other.
+constexpr float error_of_glossy_cell = 0.07f;
+/// What mean_clamped_cosine is off by.
+constexpr float error_of_cosine = 0.02f;
 /// And for a first look at how much light there is.
 constexpr float rough_variance = 0.3f;
+constexpr std::uint32_t rays_per_light = 2;
 /// No light seems smaller than this, rad^2: sharpness has an end.
 constexpr float least_variance = 1e-7f;
 
@@ -25,7 +36,8 @@ struct CutLight {
     Batch diffuse;
     LobeSums<Batch> glossy;
     Batch visible = Batch(1.0f);
-    Batch glossy_error = Batch(0.0f);
+    Batch glossy_error = Batch(0.0f);   ///< of the closed form, relative
+    Batch cluster_error = Batch(0.0f);  ///< of taking lights together, relative
 };
 
 /// The mean of the clamped cosine to axes about one at cosine z, of that variance: algebraic, and finite at all.
@@ -42,11 +54,12 @@ Batch smoothstep(const Batch& x) {
 
 class LightCut {
    public:
-    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t sample_index)
+    LightCut(const SurfaceBatch& batch, const RenderSettings& settings, std::uint32_t turn)
         : batch_(batch),
           budget_(budget_of(settings)),
+          fineness_(std::clamp(0.01f * settings.error_budget_percent / usual_budget, 0.05f, 10.0f)),
           method_(settings.virtual_light_method),
-          sample_index_(sample_index) {
+          turn_(turn) {
         if (batch.has_glossy) receiver_.emplace(batch.lobe);
         for (std::size_t i = 0; i < batch_size; ++i) normals_[i] = batch.lanes[i]->surface.bump.normal;
         normal_ = gather_vector([&](std::size_t i) { return normals_[i]; });
@@ -60,11 +73,11 @@ class LightCut {
     }
 
     /// Cuts both trees: roughly, for about how much light there is in all, and then as that says.
-    void cut(const VirtualLights& lights) {
+    void cut(const VirtualLightTree& diffuse, const VirtualLightTree& glossy) {
         const Batch one(1.0f);
         const auto in_both = [&](const auto& of_tree) {
-            if (!lights.diffuse.empty()) of_tree(lights.diffuse, false);
-            if (!lights.glossy.empty()) of_tree(lights.glossy, true);
+            if (!diffuse.empty()) of_tree(diffuse, false);
+            if (!glossy.empty()) of_tree(glossy, true);
         };
         total_ = Batch(0.0f);
         Batch sum(0.0f);
@@ -92,7 +105,7 @@ class LightCut {
         for (const CutLight& cut : cut_) total += size_of(cut);
         total_ = total;
         if (!receiver_ || method_ != VirtualLightMethod::automatic) return;
-        const Batch least = Batch(share_for_caps) * total;
+        const Batch least = Batch(share_for_caps * fineness_) * total;
         for (CutLight& cut : cut_) {
             const BatchMask wide = is_wide(*receiver_, cut.seen);
             const BatchMask matters = !wide && glossy_size_of(cut) > least && least > Batch(0.0f);
@@ -103,7 +116,7 @@ class LightCut {
         }
     }
 
-    /// One shadow ray to each light that matters; the rest is seen as these are in the mean.
+    /// A few shadow rays to each light that matters; the rest is seen as these are in the mean.
     void trace(const Scene& scene) {
         const Batch zero(0.0f);
         Batch seen(0.0f), all(0.0f);
@@ -113,25 +126,29 @@ class LightCut {
         for (std::size_t k = 0; k < cut_.size(); ++k) {
             CutLight& cut = cut_[k];
             const Batch size = size_of(cut);
-            asked[k] = size > Batch(share_for_rays) * total_ && first_lanes(batch_.count);
+            asked[k] = size > Batch(share_for_rays * fineness_) * total_ && first_lanes(batch_.count);
             if (!any(asked[k])) continue;
-            const PlaceInView place = place_in_view(*cut.light, asked[k]);
-            const RayOf<Batch> rays{origin, place.wi, zero,
-                                    select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
-            // Light from places that are all behind the surface comes through it.
-            cut.visible = select(place.is_faced, scene.visibility(rays), zero);
+            cut.visible = zero;
+            for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
+                const PlaceInView place = place_in_view(*cut.light, asked[k], turn_ * rays_per_light + ray);
+                const RayOf<Batch> rays{origin, place.wi, zero,
+                                        select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+                // Light from places that are all behind the surface comes through it.
+                cut.visible += select(place.is_faced, scene.visibility(rays), zero) * Batch(1.0f / rays_per_light);
+            }
             seen += select(asked[k], size * cut.visible, zero);
             all += select(asked[k], size, zero);
         }
-        const Batch mean = select(all > zero, seen / max(all, tiny<Batch>), Batch(1.0f));
-        for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, mean);
+        share_seen_ = select(all > zero, seen / max(all, tiny<Batch>), Batch(1.0f));
+        for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, share_seen_);
     }
 
-    IndirectReflection result() const {
+    std::array<VirtualReflection, batch_size> result() const {
+        std::array<VirtualReflection, batch_size> result;
         std::array<Batch, 3> diffuse;
         std::array<LobeSums<Batch>, 3> glossy;
         diffuse.fill(Batch(0.0f));
-        Batch error(0.0f);
+        Batch error(0.0f), shadow_variance(0.0f), all(0.0f);
         for (const CutLight& cut : cut_) {
             for (int c = 0; c < 3; ++c) {
                 const auto channel = static_cast<std::size_t>(c);
@@ -139,23 +156,22 @@ class LightCut {
                 diffuse[channel] += power * cut.diffuse;
                 glossy[channel] += cut.glossy * power;
             }
-            error += cut.visible *
-                     (glossy_size_of(cut) * cut.glossy_error + Batch(0.02f) * (size_of(cut) - glossy_size_of(cut)));
+            const Batch size = size_of(cut), of_glossy = glossy_size_of(cut);
+            all += size * cut.visible;
+            error += cut.visible * (of_glossy * cut.glossy_error + Batch(error_of_cosine) * (size - of_glossy) +
+                                    size * cut.cluster_error);
+            shadow_variance += sqr(size) * share_seen_ * (Batch(1.0f) - share_seen_);
         }
-        IndirectReflection result;
-        result.error = store(error);
-        for (int c = 0; c < 3; ++c) {
-            const auto channel = static_cast<std::size_t>(c);
-            const Lanes d = store(diffuse[channel]), plain = store(glossy[channel].plain),
-                        schlick = store(glossy[channel].schlick), dielectric = store(glossy[channel].dielectric);
-            for (std::size_t i = 0; i < batch_.count; ++i) {
-                const Base& surface = batch_.lanes[i]->surface;
-                const LobeFresnel& f = surface.fresnel;
-                float sum = surface.diffuse[c] * d[i] / pi<float>;
-                if (surface.has_glossy())
-                    sum += f.schlick_f0[c] * plain[i] + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick[i] +
-                           f.dielectric_f0[c] * plain[i] + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric[i];
-                result.radiance[i][c] = sum;
+        const Batch scale = inverse(max(all, tiny<Batch>));
+        const Lanes errors = store(error * scale), deviations = store(sqrt(shadow_variance) * scale);
+        for (std::size_t i = 0; i < batch_size; ++i)
+            result[i].error = errors[i], result[i].shadow_deviation = deviations[i];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Lanes d = store(diffuse[c]), plain = store(glossy[c].plain), schlick = store(glossy[c].schlick),
+                        dielectric = store(glossy[c].dielectric);
+            for (std::size_t i = 0; i < batch_size; ++i) {
+                result[i].diffuse[c] = d[i];
+                result[i].glossy[c] = {plain[i], schlick[i], dielectric[i]};
             }
         }
         return result;
@@ -170,10 +186,10 @@ class LightCut {
 
     /// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
     /// that does.
-    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted) const {
+    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted, std::uint32_t turn) const {
         PlaceInView result;
         for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
-            const LightPlace& place = light.places[(sample_index_ + i) % VirtualLight::place_count];
+            const LightPlace& place = light.places[(turn + i) % VirtualLight::place_count];
             const Vec3b to_place = broadcast(place.position) - batch_.position;
             const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
             const Vec3b wi = to_place * inverse(distance);
@@ -262,8 +278,8 @@ class LightCut {
                       zero);
     }
 
-    /// The variance of directions up to which lights may be taken together.
-    Batch allowed_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
+    /// The variance of directions up to which lights that are all there is may be taken together.
+    Batch usual_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
         Batch allowed(largest_variance);
         if (receiver_) {
             const Vec3b& wo = batch_.lobe.wo_local;
@@ -278,10 +294,14 @@ class LightCut {
             const Batch beyond = max(apart2 - Batch(8.0f / std::max(light.sharpness, 1e-3f)), Batch(0.0f));
             allowed = min(allowed, Batch(part_of_lobe / light.lobe_sharpness) + Batch(part_of_distance) * beyond);
         }
-        // What is little of all may be off by more.
+        return allowed;
+    }
+
+    /// The same by the budget. What is little of all may be off by more.
+    Batch allowed_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
         const Batch little =
             Batch(share_to_open) * total_ * inverse(max(estimate(light, is_glossy, view), tiny<Batch>));
-        return allowed * max(Batch(1.0f), little);
+        return Batch(fineness_) * usual_variance(light, is_glossy, view) * max(Batch(1.0f), little);
     }
 
     /// visit(light, view, weight): each light of a cut, and how much it counts in each lane.
@@ -318,6 +338,9 @@ class LightCut {
                      Batch(1.0f / pi<float>);
         }
         CutLight cut{&light, seen, scale, zero, {}};
+        const Batch apart = view.variance * inverse(usual_variance(light, is_glossy, view));
+        cut.cluster_error = min(Batch(error_of_cluster) * apart, Batch(most_error_of_cluster)) +
+                            Batch(is_glossy ? error_of_glossy_cell : 0.0f);
         if (batch_.has_diffuse)
             cut.diffuse =
                 scale * integrate(seen) * mean_clamped_cosine(dot(seen.axis, normal_), inverse(seen.sharpness));
@@ -337,22 +360,38 @@ class LightCut {
 
     const SurfaceBatch& batch_;
     Batch budget_;
+    float fineness_;  ///< 1 for the usual budget, less for a finer cut
     VirtualLightMethod method_;
-    std::uint32_t sample_index_;
+    std::uint32_t turn_;
     std::optional<GgxGaussianReceiver<Batch>> receiver_;
     std::array<Vec3f, batch_size> normals_;
     Vec3b normal_, normal_geometric_;
     Batch glossy_weight_, diffuse_weight_, size_, total_;
+    Batch share_seen_ = Batch(1.0f);  ///< of the lights that rays asked for
     std::vector<CutLight> cut_;
 };
 
 }  // namespace
 
-IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
-                                          const VirtualLights& lights, const SurfaceBatch& batch,
-                                          std::uint32_t sample_index) {
-    LightCut cut(batch, settings, sample_index);
-    cut.cut(lights);
+Rgb VirtualReflection::radiance(const Base& surface) const {
+    const LobeFresnel& f = surface.fresnel;
+    Rgb result;
+    for (int c = 0; c < 3; ++c) {
+        const auto& [plain, schlick, dielectric] = glossy[static_cast<std::size_t>(c)];
+        result[c] = surface.diffuse[c] * diffuse[static_cast<std::size_t>(c)] / pi<float>;
+        if (surface.has_glossy())
+            result[c] += f.schlick_f0[c] * plain + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick +
+                         f.dielectric_f0[c] * plain + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric;
+    }
+    return result;
+}
+
+std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                                                 const VirtualLightTree& diffuse,
+                                                                 const VirtualLightTree& glossy,
+                                                                 const SurfaceBatch& batch, std::uint32_t turn) {
+    LightCut cut(batch, settings, turn);
+    cut.cut(diffuse, glossy);
     cut.refine();
     if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
     return cut.result();

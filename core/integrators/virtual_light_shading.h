@@ -11,14 +11,20 @@
 
 namespace pivot {
 
-/// Of each lane.
-struct IndirectReflection {
-    std::array<Rgb, batch_size> radiance{};
-    Lanes error{};  ///< predicted for the closed forms, as radiance
+/// What a surface's lobes reflect of virtual lights, before its colours.
+struct VirtualReflection {
+    std::array<float, 3> diffuse{};  ///< irradiance
+    std::array<LobeSums<float>, 3> glossy{};
+    float error = 0.0f;             ///< predicted for the closed forms and for lights taken together, relative
+    float shadow_deviation = 0.0f;  ///< of what the rays say, relative
+
+    Rgb radiance(const Base& surface) const;
 };
 
-IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
-                                          const VirtualLights& lights, const SurfaceBatch& batch,
-                                          std::uint32_t sample_index);
+/// Of each lane; either tree may be empty. turn: which of a light's places shadow rays ask first.
+std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
+                                                                 const VirtualLightTree& diffuse,
+                                                                 const VirtualLightTree& glossy,
+                                                                 const SurfaceBatch& batch, std::uint32_t turn);
 
 }  // namespace pivot

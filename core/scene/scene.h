@@ -70,6 +70,8 @@ class Scene {
     /// The place of the light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
     bool has_varying_lights() const { return has_varying_lights_; }
+    /// The triangle that one of triangle_lights() is.
+    const SceneTriangle& shining_triangle(std::size_t triangle_light) const { return scene_triangles_[triangle_light]; }
     /// The triangle that a light is whose emission is a program's; nothing of other lights.
     std::optional<SceneTriangle> varying_triangle(std::size_t place) const;
     /// Of the lamps, and of the triangles.

@@ -1,22 +1,33 @@
-// What of a rectangle, disk or ellipse is above the surface: its outline in pieces, closed along the horizon. Shading
-// frame, z the normal; places relative to the shaded point. Batches only in what the lanes' pieces are collected by.
+// What of a rectangle, disk, ellipse or triangle is above the surface: its outline in pieces, closed along the horizon.
+// Shading frame, z the normal; places relative to the shaded point. Batches only in what the lanes' pieces are
+// collected by.
 //   [Lambert1760] Photometria: the irradiance of a contour
 #pragma once
 
 #include <numeric>
 
 // clang-format off: templates that follow must see batches
+#include "core/lights/light.h"
 #include "core/math/quadrature.h"
 #include "core/simd/batch.h"
 // clang-format on
 
 namespace pivot {
 
-/// Relative to the shaded point, in the shading frame. `ellipse` is one for all lanes.
+/// Relative to the shaded point, in the shading frame. `shape` is one for all lanes.
 template <class T>
 struct AreaOutline {
     Vec3<T> center, half_u, half_v;
-    bool ellipse;
+    AreaShape shape;
+
+    bool is_ellipse() const { return shape == AreaShape::ellipse; }
+    bool is_triangle() const { return shape == AreaShape::triangle; }
+    /// Of one that is no ellipse, in order; a triangle's first is there twice.
+    std::array<Vec3<T>, 4> corners() const {
+        const Vec3<T> low = center - half_u, high = center + half_u;
+        if (is_triangle()) return {low, high - half_v, high + half_v, low};
+        return {low - half_v, high - half_v, high + half_v, low + half_v};
+    }
 };
 
 /// A point that runs from a to a + b so that its direction turns evenly: where it is, t, when s of the turn is done.
@@ -93,8 +104,9 @@ struct AreaArcs {
 /// Whether any of it is above the surface.
 template <class T>
 Mask<T> is_above(const AreaOutline<T>& light) {
-    const T reach =
-        light.ellipse ? sqrt(sqr(light.half_u.z) + sqr(light.half_v.z)) : abs(light.half_u.z) + abs(light.half_v.z);
+    T reach = abs(light.half_u.z) + abs(light.half_v.z);
+    if (light.is_ellipse()) reach = sqrt(sqr(light.half_u.z) + sqr(light.half_v.z));
+    if (light.is_triangle()) reach = max(-light.half_u.z, light.half_u.z + abs(light.half_v.z));
     return light.center.z + reach > T(0);
 }
 
@@ -105,7 +117,7 @@ AreaArcs<Pieces, T> outline_above(const AreaOutline<T>& light) {
     AreaArcs<Pieces, T> result;
     auto* arcs = result.outline.data();
     Vec3<T>& highest = result.highest;
-    if (light.ellipse) {
+    if (light.is_ellipse()) {
         // z along the rim is center.z + reach cos(angle - peak)
         const T reach = sqrt(sqr(light.half_u.z) + sqr(light.half_v.z));
         const T peak = atan2(light.half_v.z, select(reach > T(0), light.half_u.z, T(1)));
@@ -132,9 +144,7 @@ AreaArcs<Pieces, T> outline_above(const AreaOutline<T>& light) {
         highest = at<true>(arcs[2 * pieces], T(0)).p;
         return result;
     }
-    const std::array<Vec3<T>, 4> corners{
-        light.center - light.half_u - light.half_v, light.center + light.half_u - light.half_v,
-        light.center + light.half_u + light.half_v, light.center - light.half_u + light.half_v};
+    const std::array<Vec3<T>, 4> corners = light.corners();
     highest = corners[0];
     Vec3<T> left = corners[0], entered = corners[0];
     for (size_t i = 0; i < 4; ++i) {
@@ -174,7 +184,7 @@ T diffuse_share(const AreaOutline<T>& light) {
     };
     const auto straight = [](const OutlineArc<T>& arc, T t) { return at<false>(arc, t); };
     const auto curved = [](const OutlineArc<T>& arc, T t) { return at<true>(arc, t); };
-    const T sum = (light.ellipse ? irradiance(above.outline, curved) : irradiance(above.outline, straight)) +
+    const T sum = (light.is_ellipse() ? irradiance(above.outline, curved) : irradiance(above.outline, straight)) +
                   irradiance(above.horizon, straight);
     return select(is_above(light), abs(sum) * T(0.5f / pi<float>), T(0));
 }

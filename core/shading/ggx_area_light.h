@@ -1,5 +1,5 @@
-// GGX under a rectangle, disk or ellipse: a rule on the light itself, spread as the lobe sees it. Shading frame, z the
-// normal; places relative to the shaded point.
+// GGX under a rectangle, disk, ellipse or triangle: a rule on the light itself, spread as the lobe sees it. Shading
+// frame, z the normal; places relative to the shaded point.
 //   [Heitz16] "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines"
 //
 // What of a light is above the surface is convex: it is the triangles between its brightest place and the pieces of its
@@ -64,13 +64,15 @@ Vec3<T> brightest_place(const Vec3<T>& mirror, const AreaOutline<T>& light, cons
     const T distance = abs(height) / max(facing * sign, T(1e-3) * length(normal));
     const Vec2<T> place = PlaneCoordinates<T>(light).of(distance * mirror - light.center);
     T x = place.x, y = place.y;
-    if (light.ellipse) {
+    if (light.is_ellipse()) {
         const T shrink = T(0.99) / sqrt(max(sqr(x) + sqr(y), T(0.99 * 0.99)));
         x *= shrink;
         y *= shrink;
     } else {
-        x = min(max(x, T(-0.99)), T(0.99));
-        y = min(max(y, T(-0.99)), T(0.99));
+        const T least = light.is_triangle() ? T(-0.95) : T(-0.99);
+        x = min(max(x, least), T(0.99));
+        const T most = light.is_triangle() ? T(0.495) * (T(1) + x) : T(0.99);
+        y = min(max(y, -most), most);
     }
     const Vec3<T> nearest = light.center + x * light.half_u + y * light.half_v;
     const auto hidden = nearest.z < T(0.05) * highest.z;
@@ -129,7 +131,7 @@ LobeSums<Batch> sum_area_light(const GgxLobe<Batch>& lobe, const AreaOutline<Bat
         const Batch scale = Batch(0.25f / pi<float>) * inverse_alpha2 * inverse(l.wo_local.z);
         LobeSums<Batch> part;
         detail::for_each_place<curved, Steps, Radial>(
-            {l.center, l.half_u, l.half_v, light.ellipse}, batch.arc, l.brightest,
+            {l.center, l.half_u, l.half_v, light.shape}, batch.arc, l.brightest,
             [&](const Vec3b& p) { return m_inverse * (p + length(p) * l.wo_local); },
             [&](const Vec3b& p, const Batch& inverse_distance, const Batch& solid_angle) {
                 const Vec3b half = l.wo_local + p * inverse_distance;
@@ -141,7 +143,7 @@ LobeSums<Batch> sum_area_light(const GgxLobe<Batch>& lobe, const AreaOutline<Bat
             });
         sums.add(part, batch.lane, batch.count);
     };
-    if (light.ellipse) {
+    if (light.is_ellipse()) {
         for_each_batch<true>(above.outline, wanted, [&](const ArcBatch& b) { sum(std::true_type(), b); });
     } else {
         for_each_batch<false>(above.outline, wanted, [&](const ArcBatch& b) { sum(std::false_type(), b); });
@@ -170,7 +172,9 @@ LobeIntegral<T> integrate_by_lobe(const GgxLobe<T>& lobe, const AreaOutline<T>& 
         const Vec3<T> omega_i = T(2) * cos_oh * half - lobe.wo_local;
         const T facing = dot(omega_i, normal), distance = height / select(abs(facing) > tiny<T>, facing, tiny<T>);
         const Vec2<T> place = coordinates.of(distance * omega_i - light.center);
-        const T reach = light.ellipse ? dot(place, place) : max(abs(place.x), abs(place.y));
+        const T reach = light.is_ellipse()    ? dot(place, place)
+                        : light.is_triangle() ? max(place.x, T(2) * abs(place.y) - place.x)
+                                              : max(abs(place.x), abs(place.y));
         const T value = select(distance > T(0) && reach < T(1), share * g2(omega_i.z), T(0));
         halves[static_cast<size_t>(i % 2)] += value;
         add(sums, lobe, cos_oh, value);

@@ -32,6 +32,12 @@ def test_more_samples_cost_more_and_err_less(case: Any) -> None:
         assert few["rel_mse"] > many["rel_mse"]
 
 
+def test_light_that_bounced_is_charted(case: Any) -> None:
+    methods = {row["method"] for row in case["bounced"]}
+    assert methods == {"Monte Carlo, joint", "Virtual lights", "Virtual lights, by number", "Cycles"}
+    assert all(row["bounces"] == 1 and row["rel_mse"] < 10 for row in case["bounced"])
+
+
 def test_the_chart_is_a_picture(case: Any) -> None:
     width, height = case["size"]
     assert width > height > 400

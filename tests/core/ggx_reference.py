@@ -1,7 +1,8 @@
-"""GGX under a cap-shaped light by brute force: what the analytic integrator's rules are held against.
+"""GGX under a cap or a spherical Gaussian of light by brute force: what the analytic integrator's rules are held
+against.
 
-Directions are spread over the exact core's disk (tested by the oracles), or the horizon's where the light surrounds
--wo, and each is asked whether it is in the light and above the surface: no part of the rules under test.
+Under a cap, directions are spread over the exact core's disk (tested by the oracles), or the horizon's where the light
+surrounds -wo, and each is asked whether it is in the light and above the surface: no part of the rules under test.
 """
 
 from __future__ import annotations
@@ -64,3 +65,34 @@ def random_case(rng: np.random.Generator) -> tuple[float, Floats, Floats, float]
         near = bsdf.ggx_sample(alpha, wo, rng.random(2))
         axis = pd.cap_sample(near / np.linalg.norm(near), 2 * np.sin(half_angle / 2) ** 2, rng.random(2))
     return alpha, wo, axis / np.linalg.norm(axis), half_angle
+
+
+def ggx_under_gaussian(alpha: float, wo: Floats, axis: Floats, sharpness: float) -> float:
+    """The integral of D G2 / (4 cos_o) exp(sharpness (wi . axis - 1)): by rings around the light, or the highlight,
+    whichever is narrower, as their product is there."""
+    mirror = np.array([-wo[0], -wo[1], wo[2]])
+    center, scale = (axis, 1 / sharpness) if sharpness > 0.5 / alpha**2 else (mirror, alpha**2)
+    rings, turns = 1200, 512
+    x = (np.arange(rings) + 0.5) / rings
+    versine = scale * x / (1 - x * (1 - scale / 2))  # from 0 to 2, dense where it is below scale
+    weight = scale / (1 - x * (1 - scale / 2)) ** 2 / rings
+    phi = (np.arange(turns) + 0.5) * 2 * np.pi / turns
+    side = np.cross(center, [0.3, 0.8, 0.52])
+    side /= np.linalg.norm(side)
+    radius = np.sqrt(np.maximum(versine * (2 - versine), 0))[:, None, None]
+    around = np.cos(phi)[:, None] * side + np.sin(phi)[:, None] * np.cross(center, side)
+    wi = (1 - versine)[:, None, None] * center + radius * around
+    light = np.exp(-sharpness * 0.5 * ((wi - axis) ** 2).sum(-1))
+    value = smith_ggx(alpha, wo, wi) * light * weight[:, None]
+    return float(value.sum() * 2 * np.pi / turns)
+
+
+def smith_ggx(alpha: float, wo: Floats, wi: Floats) -> Floats:
+    """D G2 / (4 cos_o), F = 1, by itself."""
+    h = wo + wi
+    h /= np.linalg.norm(h, axis=-1, keepdims=True)
+    ndf = alpha**2 / (np.pi * (h[..., 2] ** 2 * (alpha**2 - 1) + 1) ** 2)
+    zi, zo = np.maximum(wi[..., 2], 0), wo[2]
+    g_i, g_o = (np.sqrt(alpha**2 + (1 - alpha**2) * z**2) for z in (zi, zo))
+    g2 = 2 * zi * zo / np.maximum(zo * g_i + zi * g_o, 1e-30)
+    return np.where(wi[..., 2] > 0, ndf * g2 / (4 * zo), 0.0)

@@ -11,22 +11,24 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from pivot_core.shading import METHODS, ggx_sphere_light
+from pivot_core.shading import METHODS, ggx_gaussian_light, ggx_sphere_light
 from pivot_core.tables import ggx_sptd
 
 from tests.core import printed_forms
-from tests.core.ggx_reference import LEAST_VALUE, UP, Floats, ggx_under_cap
+from tests.core.ggx_reference import LEAST_VALUE, UP, Floats, ggx_under_cap, ggx_under_gaussian
 from tests.core.stability import Sweep, as_vector
+from tests.core.stability_bounces import bounce_renders
 from tests.core.stability_scenes import edge_renders
 from tests.core.test_stability import SWEEPS
 from tests.core.test_stability_linear import SWEEPS as LINEAR_SWEEPS
 
 BUDGET_PERCENT = 2.0
+WORST_OF_GAUSSIANS = 0.25  # what ggx_gaussian_light.h states of any light
 
 
 @dataclass(frozen=True)
 class Row:
-    what: str  # "functions", "GGX under a light", "renders"
+    what: str  # "functions", "GGX under a light", "GGX under a Gaussian", "renders"
     name: str
     limit: str
     printed_error: float | None  # relative; None where no seed prints a form
@@ -116,7 +118,62 @@ def printed_sptd(alpha: float, wo: Floats, axis: Floats, half_angle: float) -> f
     return value if np.isfinite(value) else np.inf
 
 
+def lowered(sharpness: float) -> LightWalk:
+    """The axis sinks from above to far below the horizon: behind the surface."""
+    steps = list(np.linspace(0.45, -1.2, 12))
+    return LightWalk(
+        f"axis goes behind, sharpness {sharpness:g}",
+        steps,
+        lambda s: (0.3, direction(1.2), direction(np.pi / 2 - s, np.pi), sharpness),
+    )
+
+
+GAUSSIAN_WALKS = (
+    *(
+        LightWalk(
+            f"sharpness 1e-3 .. 1e7, alpha {a:g}",
+            decades,
+            lambda x, a=a: (a, direction(0.8), mirrored(0.8, 0.3 * a), x),
+        )
+        for a in (1e-3, 0.05, 0.3, 1.0)
+        for decades in [list(10.0 ** np.linspace(-3, 7, 11))]
+    ),
+    *(
+        LightWalk(
+            f"alpha 1e-3 .. 1, sharpness {x:g}",
+            powers(0, -3),
+            lambda a, x=x: (a, direction(0.8), mirrored(0.8, 0.3 * a), x),
+        )
+        for x in (1.0, 100.0, 1e5)
+    ),
+    LightWalk("view -> 89.4 deg", powers(0, -2), lambda t: (0.2, direction(np.pi / 2 - t), mirrored(0.8), 50.0)),
+    LightWalk(
+        "mirror, grazing", powers(0, -2), lambda t: (0.2, direction(np.pi / 2 - t), mirrored(np.pi / 2 - t), 50.0)
+    ),
+    *(lowered(x) for x in (5.0, 6.0, 50.0, 1000.0)),
+)
+
+
+def gaussian_rows() -> Iterator[Row]:
+    """Errors are relative to a twentieth at least of what the light gives in the highlight."""
+    for walk in GAUSSIAN_WALKS:
+        worst, printed, method = -1.0, 0.0, ""
+        for t in walk.walk:
+            alpha, wo, axis, sharpness = walk.case(t)
+            exact = ggx_under_gaussian(alpha, wo, axis, sharpness)
+            scale = max(exact, 0.05 * ggx_under_gaussian(alpha, wo, wo * [-1, -1, 1], sharpness))
+            value, by_points, by_form = (
+                float(ggx_gaussian_light(alpha, wo, axis, sharpness, way)[0])
+                for way in ("AUTO", "POINTS", "ANISOTROPIC")
+            )
+            error = abs(value - exact) / scale if value >= 0 else np.inf
+            if not error <= worst:  # NaN too
+                worst, method = error, "POINTS" if value == by_points else "CAPS"
+            printed = max(printed, abs(by_form - exact) / scale)
+        yield Row("GGX under a Gaussian", "ggx_gaussian_light", walk.limit, printed, worst, WORST_OF_GAUSSIANS, method)
+
+
 def render_rows() -> Iterator[Row]:
-    for made in edge_renders():
+    for made in (*edge_renders(), *bounce_renders()):
         error = made.error if made.is_finite else np.inf
         yield Row("renders", made.integrator, made.scene, None, error, made.bound, made.settings)

@@ -5,41 +5,13 @@ import pivot_core.shading as ps
 import pytest
 from numpy.typing import NDArray
 
+from tests.core.ggx_reference import ggx_under_gaussian
+
 Doubles = NDArray[np.float64]
 
 
 def unit(v: Doubles) -> Doubles:
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
-
-
-def ggx(alpha: float, wo: Doubles, wi: Doubles) -> Doubles:
-    """D G2 / (4 cos_o), F = 1."""
-    h = unit(wo + wi)
-    d = alpha**2 / (np.pi * (h[..., 2] ** 2 * (alpha**2 - 1) + 1) ** 2)
-
-    def smith(z: Doubles) -> Doubles:
-        return np.sqrt(alpha**2 + (1 - alpha**2) * z**2)
-
-    zi, zo = np.maximum(wi[..., 2], 0), wo[2]
-    g2 = 2 * zi * zo / np.maximum(zo * smith(zi) + zi * smith(zo), 1e-30)
-    return np.where(wi[..., 2] > 0, d * g2 / (4 * zo), 0.0)
-
-
-def reference(alpha: float, wo: Doubles, axis: Doubles, sharpness: float) -> float:
-    """By rings around the light, or the highlight, whichever is narrower: their product is there."""
-    mirror = np.array([-wo[0], -wo[1], wo[2]])
-    center, scale = (axis, 1 / sharpness) if sharpness > 0.5 / alpha**2 else (mirror, alpha**2)
-    x = (np.arange(1200) + 0.5) / 1200
-    versine = scale * x / (1 - x * (1 - scale / 2))  # from 0 to 2, dense where it is below scale
-    weight = scale / (1 - x * (1 - scale / 2)) ** 2 / 1200
-    phi = (np.arange(512) + 0.5) * 2 * np.pi / 512
-    side = unit(np.cross(center, [0.3, 0.8, 0.52]))
-    up = np.cross(center, side)
-    radius = np.sqrt(np.maximum(versine * (2 - versine), 0))[:, None, None]
-    around = np.cos(phi)[:, None] * side + np.sin(phi)[:, None] * up
-    wi = (1 - versine)[:, None, None] * center + radius * around
-    light = np.exp(-sharpness * 0.5 * ((wi - axis) ** 2).sum(-1))
-    return float((ggx(alpha, wo, wi) * light * weight[:, None]).sum() * 2 * np.pi / 512)
 
 
 def cases(count: int, seed: int) -> list[tuple[float, Doubles, Doubles, float]]:
@@ -60,7 +32,7 @@ def cases(count: int, seed: int) -> list[tuple[float, Doubles, Doubles, float]]:
 def errors() -> dict[str, Doubles]:
     """Relative to the larger of the integral and a twentieth of what the light gives in the highlight, by way."""
     lights = cases(150, 1)
-    exact = np.array([reference(*light) for light in lights])
+    exact = np.array([ggx_under_gaussian(*light) for light in lights])
     alpha, wo, axis, sharpness = (np.array(values) for values in zip(*lights, strict=True))
     mirror = wo * [-1, -1, 1]
     most = ps.ggx_gaussian_light(alpha, wo, mirror, sharpness, "AUTO")[0]

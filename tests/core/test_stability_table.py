@@ -11,7 +11,7 @@ import pytest
 from pivot_core.shading import METHODS
 
 from tests.core import printed_forms
-from tests.core.stability_table import BUDGET_PERCENT, Row, function_rows, light_rows, render_rows
+from tests.core.stability_table import BUDGET_PERCENT, Row, function_rows, gaussian_rows, light_rows, render_rows
 
 AXIS, UP, SIDE = np.array([0.48, 0.6, 0.64]), np.array([0.0, 0.0, 1.0]), np.array([0.6, -0.8, 0.0])
 
@@ -69,7 +69,14 @@ def test_ggx_under_lights_keeps_the_budget() -> None:
     assert all(row.method[:2] in ("PO", "SL") for row in rows)
 
 
-def test_whole_renders_hold_in_both_integrators() -> None:
+def test_ggx_under_gaussians_is_within_what_is_stated() -> None:
+    rows = list(gaussian_rows())
+    assert [f"{row.limit}: {row.error:.2g}" for row in rows if not row.error <= row.bound] == []
+    assert {row.method for row in rows} == {"CAPS", "POINTS"}
+    assert np.mean([row.error for row in rows]) < 0.1
+
+
+def test_whole_renders_hold_in_all_integrators() -> None:
     rows = list(render_rows())
-    assert {row.name for row in rows} == {"analytic", "Monte Carlo"}
+    assert {row.name for row in rows} == {"analytic", "Monte Carlo", "virtual lights"}
     assert [f"{row.name}, {row.limit}: {row.error:.2g}" for row in rows if not row.error <= row.bound] == []

@@ -86,7 +86,7 @@ def test_the_sky_is_reflected() -> None:
 
 
 def test_an_emissive_mesh_is_reflected() -> None:
-    """Its own light is not shown by the analytic integrator: only what others send on of it."""
+    """What others send on of its light; its own is direct."""
     scene, _ = open_corner()
     lamp = scene.add_material("lamp", pivot_core.Material(emission=(5.0, 4.0, 3.0)))
     scene.add_instances("lamp", add_box(scene, (-0.2, -0.2, 0.6), (0.2, 0.2, 0.7)), place(), [lamp])

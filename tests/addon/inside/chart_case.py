@@ -37,6 +37,7 @@ def main(folder: Path) -> Any:
         "applied": list(applied),
         "after": after,
         "suggestion_out_of_reach": chart.suggestion(bpy.context.scene) is not None,
+        "bounced": _bounced(),
         "failure": _failure(),
         "cancelled": _cancelled(),
         "keyed": _keyed(folder),
@@ -56,6 +57,16 @@ def _pixels(image: bpy.types.Image) -> Any:
     flat = [0.0] * (image.size[0] * image.size[1] * 4)
     image.pixels.foreach_get(flat)
     return zip(*(flat[channel::4] for channel in range(3)), strict=True)
+
+
+def _bounced() -> Any:
+    """The error of each point where light bounced once."""
+    bpy.ops.pivot.chart(ladder="SMALL_BOUNCE")
+    chart = bpy.context.window_manager.pivot_chart
+    rows = importlib.import_module("pivot.chart.measure").rows_from_json(chart.rows)
+    return [
+        {"method": row.rung.method, "rel_mse": row.rel_mse, "bounces": row.rung.settings["max_bounces"]} for row in rows
+    ]
 
 
 def _failure() -> str:

@@ -87,7 +87,10 @@ def _reports() -> Any:
     _masks()
     world = parts.world((1, 1, 1))
     world.cycles_visibility.camera = False
-    parts.quad("panel", material=parts.shaded("glow", "ShaderNodeEmission")[0])
+    glow, emission = parts.shaded("glow", "ShaderNodeEmission")
+    place = glow.node_tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
+    glow.node_tree.links.new(place, emission.inputs["Strength"])
+    parts.quad("panel", material=glow)
     parts.quad("second panel", material=bpy.data.materials["glow"])
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     bpy.context.scene.view_layers.new("second")

@@ -1,0 +1,61 @@
+#include "core/integrators/analytic_lights.h"
+
+#include "core/integrators/cell_space.h"
+#include "core/integrators/photons.h"
+#include "core/sampling/sobol.h"
+#include "core/sampling/warp.h"
+
+namespace pivot {
+namespace {
+
+/// A triangle that gives this part of what all of them do is a light by itself: there are few.
+constexpr double part_of_exact = 1.0 / 32.0;
+constexpr double deposits_per_cell = 8.0;
+constexpr std::uint32_t triangle_seed = 0x74726961u;
+
+double power_of(const AreaLight& light) {
+    return static_cast<double>(mean_component(abs(light.radiance)) * light.area_m2);
+}
+
+/// What a triangle sends out on a side, 1 or -1, of its normal, by so many places of it.
+void deposit(const AreaLight& light, float side, std::uint32_t index, std::uint32_t owner, const CellSpace& cells,
+             std::uint32_t count, std::vector<LightDeposit>& deposits) {
+    const Rgb power_w = light.radiance * (pi<float> * light.area_m2 / static_cast<float>(count));
+    const std::uint32_t seed = hash(triangle_seed, index);
+    const Vec3f normal = side * light.normal;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const LightPlace place{place_on(light, Sampler{seed, k}.point(0)), normal};
+        deposits.push_back(cells.deposit(hash(seed, k), owner, place, normal, power_w));
+    }
+}
+
+}  // namespace
+
+AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings) {
+    AnalyticLights lights;
+    lights.exact.assign(scene.lamps().begin(), scene.lamps().end());
+    const std::span<const Light> triangles = scene.triangle_lights();
+    double all = 0.0;
+    for (const Light& light : triangles) all += power_of(std::get<AreaLight>(light));
+    const double wanted = deposits_per_cell * static_cast<double>(settings.virtual_lights);
+    std::array<std::vector<LightDeposit>, 2> deposits;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const auto& light = std::get<AreaLight>(triangles[i]);
+        const double part = power_of(light) / all;
+        if (part >= part_of_exact) {
+            lights.exact.push_back(light);
+            continue;
+        }
+        const std::uint32_t owner = scene.shining_triangle(i).instance;
+        const CellSpace cells(scene.world_from_object(owner));
+        const auto count = static_cast<std::uint32_t>(std::ceil(part * wanted));
+        deposit(light, 1.0f, i, owner, cells, count, deposits[0]);
+        deposit(light, -1.0f, i, owner, cells, count, deposits[1]);
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+        lights.emitted[side] = build_virtual_lights(deposits[side], settings.virtual_lights);
+    if (settings.indirect == Indirect::virtual_lights) lights.bounced = trace_virtual_lights(scene, settings);
+    return lights;
+}
+
+}  // namespace pivot
