@@ -41,7 +41,7 @@ AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings)
     std::array<std::vector<LightDeposit>, 2> deposits;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto& light = std::get<AreaLight>(triangles[i]);
-        const double part = power_of(light) / all;
+        const double part = all > 0.0 ? power_of(light) / all : 1.0;
         if (part >= part_of_exact) {
             lights.exact.push_back(light);
             continue;
