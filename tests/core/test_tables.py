@@ -181,7 +181,7 @@ def test_glass_table_is_near_what_it_stands_for() -> None:
     for alpha, cos_o in zip(*random_views(100, 6), strict=True):
         made = ggx_glass.albedos(alpha, cos_o, etas).sum(-1)
         errors.append(np.abs(np.sum(tables.ggx_glass_albedo(alpha, cos_o, etas), 0) / made - 1))
-    assert np.all(np.median(errors, 0) < 1e-3)
+    assert np.all(np.median(errors, 0) < 2e-3)
     assert np.all(np.quantile(errors, 0.95, 0) < 1e-2)
     assert np.max(errors) < 3e-2
 
