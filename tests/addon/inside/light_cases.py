@@ -89,6 +89,9 @@ def _reports() -> Any:
     world.cycles_visibility.camera = False
     parts.quad("panel", material=parts.shaded("glow", "ShaderNodeEmission")[0])
     parts.quad("second panel", material=bpy.data.materials["glow"])
+    window, node = parts.shaded("window", "ShaderNodeBsdfGlass")
+    node.distribution = "GGX"
+    parts.quad("pane", material=window)
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     bpy.context.scene.view_layers.new("second")
     bpy.context.scene.frame_end = 2
