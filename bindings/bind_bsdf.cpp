@@ -9,7 +9,7 @@ namespace {
 
 constexpr Number alpha_spec{.name = "alpha", .low = 0, .open_low = true};
 constexpr Number cos_spec{.name = "cos_theta", .low = 0, .high = 1};
-constexpr Number ior_spec{.name = "ior", .low = 1};
+constexpr Number ior_spec{.name = "ior", .low = 0, .open_low = true};
 
 /// A unit vector above the surface, z > 0.
 struct Above : Direction {
@@ -47,8 +47,9 @@ void register_bsdf(py::module_& bsdf) {
         alpha_spec, Above{{"wo_local"}}, UnitSquare{"u"});
     define(
         bsdf, "fresnel_dielectric",
-        "fresnel_dielectric(cos_theta, ior): unpolarised reflectance from outside, cos_theta (...) in [0, 1], ior "
-        "(...) >= 1.",
+        "fresnel_dielectric(cos_theta, ior): unpolarised reflectance, cos_theta (...) in [0, 1]; ior (...) > 0: of the "
+        "other side,\n"
+        "over that of the side where the light is.",
         [](auto cos_theta, auto ior) { return fresnel_dielectric(cos_theta, ior); }, cos_spec, ior_spec);
     define(
         bsdf, "f0_from_ior", "f0_from_ior(ior): reflectance at normal incidence, ((ior - 1) / (ior + 1))^2.",

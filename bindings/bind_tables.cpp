@@ -3,6 +3,7 @@
 #include "core/tables/axes.h"
 #include "core/tables/ggx_albedo.h"
 #include "core/tables/ggx_dielectric.h"
+#include "core/tables/ggx_glass.h"
 #include "core/tables/ggx_ltc.h"
 #include "core/tables/ggx_sptd.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr Number alpha_spec{.name = "alpha", .low = 1e-3 * (1 - 1e-6), .high = 1};
 constexpr Number cos_spec{.name = "cos_o", .low = 0, .high = 1};
+constexpr Number eta_spec{.name = "eta", .low = 0, .open_low = true};
 
 /// The values at the nodes of an axis, as the tables' own lookup places them.
 template <class Value>
@@ -41,6 +43,9 @@ void register_tables(py::module_& tables) {
     tables.def(
         "ior_nodes", [](int count) { return nodes(count, ior_at); }, py::arg("count"),
         "ior_nodes(count): index of refraction at the nodes of a table of that size, 1 to 3, dense at 1.");
+    tables.def(
+        "eta_nodes", [](int count) { return nodes(count, eta_at); }, py::arg("count"),
+        "eta_nodes(count): relative index of refraction at the nodes of a table of that size, 1 in the middle.");
     define(
         tables, "ggx_sptd_from_node",
         "ggx_sptd_from_node(alpha, wo_local, shift, width): (pivot_local (..., 3), delta (...)) that a node of the "
@@ -109,6 +114,28 @@ void register_tables(py::module_& tables) {
                 ggx_dielectric_weight(static_cast<float>(alpha), static_cast<float>(cos_o), static_cast<float>(ior)));
         },
         alpha_spec, cos_spec, Number{.name = "ior", .low = 1});
+    define(
+        tables, "ggx_glass_albedo",
+        "ggx_glass_albedo(alpha, cos_o, eta): (reflected (...), refracted (...)), what a rough dielectric boundary "
+        "sends "
+        "to the\n"
+        "viewer by single scattering where all light around is 1, by the side that it comes from, from the table. eta: "
+        "the other\n"
+        "side's index of refraction over the viewer's.",
+        []<class T>(T alpha, T cos_o, T eta) {
+            const auto albedo =
+                ggx_glass_albedo(static_cast<float>(alpha), static_cast<float>(cos_o), static_cast<float>(eta));
+            return std::tuple(static_cast<T>(albedo.reflected), static_cast<T>(albedo.refracted));
+        },
+        alpha_spec, cos_spec, eta_spec);
+    define(
+        tables, "ggx_glass_average_albedo",
+        "ggx_glass_average_albedo(alpha, eta): 2 int E cos dcos of both of ggx_glass_albedo's together, from the "
+        "table.",
+        []<class T>(T alpha, T eta) {
+            return static_cast<T>(ggx_glass_average_albedo(static_cast<float>(alpha), static_cast<float>(eta)));
+        },
+        alpha_spec, eta_spec);
 }
 
 }  // namespace pivot::bindings

@@ -12,10 +12,12 @@ import numpy as np
 import pivot_core.tables as tables
 from ggx_average_albedo import average_albedo
 from ggx_dielectric import weights
+from ggx_glass import albedos
 from quadrature import Array
 
 ANGLES = (0, 30, 60, 75, 85)
 IORS = np.array([1.05, 1.1, 1.33, 1.5, 1.8, 2.4])
+ETAS = np.array([1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.1, 1.1, 1.33, 1.5, 2.4])
 
 
 def random_views(points: int, seed: int) -> tuple[Array, Array]:
@@ -54,7 +56,7 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=300)
     points = parser.parse_args().points
 
-    albedo, excess, excess_ltc, average, weight = [], [], [], [], []
+    albedo, excess, excess_ltc, average, weight, glass = [], [], [], [], [], []
     for alpha, cos_o in zip(*random_views(points, 1), strict=True):
         lobe = ggx_sptd.make_lobe(alpha, cos_o)
         albedo.append(abs(float(tables.ggx_albedo(alpha, cos_o)) - lobe.albedo))
@@ -64,12 +66,16 @@ def main() -> None:
         excess_ltc.append(ggx_ltc.hellinger(lobe, fetched_ltc(lobe)) - ggx_ltc.hellinger(lobe, best_ltc))
         average.append(abs(float(tables.ggx_average_albedo(alpha)) - average_albedo(alpha)))
         weight.append(np.abs(tables.ggx_dielectric_weight(alpha, cos_o, IORS) - weights(alpha, cos_o, IORS)))
+        kept = np.sum(tables.ggx_glass_albedo(alpha, cos_o, ETAS), 0)
+        glass.append(np.abs(kept / albedos(alpha, cos_o, ETAS).sum(-1) - 1))
     summary("ggx_sptd: albedo, absolute", np.array(albedo))
     summary("ggx_sptd: squared Hellinger distance, above the best", np.array(excess))
     summary("ggx_ltc: squared Hellinger distance, above the best", np.array(excess_ltc))
     summary("ggx_average_albedo: absolute", np.array(average))
     for ior, errors in zip(IORS, np.transpose(weight), strict=True):
         summary(f"ggx_dielectric: s at ior {ior}, absolute", errors)
+    for eta, errors in zip(ETAS, np.transpose(glass), strict=True):
+        summary(f"ggx_glass: reflected and refracted at eta {eta:.3f}, relative", errors)
 
     print_l1("ggx_sptd", lambda lobe: ggx_sptd.l1_distance(lobe, *fetched(lobe)))
     print_l1("ggx_ltc", lambda lobe: ggx_ltc.l1_distance(lobe, fetched_ltc(lobe)))

@@ -123,7 +123,7 @@ class MaterialTable:
             surface = _surface(material, owner) if is_there else Surface.of(owner.program)
             if material is not None and is_there:
                 surface = with_ndf(surface, material, owner, self._context)
-            self._warn_of_emission(surface, owner)
+            self._warn_of_analytic(surface, owner)
             with naming(owner.name, "give its colours and numbers finite values"):
                 shader = surface.core_shader(self._context.core)
             self._looks[key] = _Look(shader, is_there, frozenset(owner.program.attributes))
@@ -151,12 +151,17 @@ class MaterialTable:
     def _owner(self, material: bpy.types.Material | None, user: bpy.types.Object) -> Owner:
         return Owner(_where(material, user), self._context.reporter, self._program(), material)
 
-    def _warn_of_emission(self, surface: Surface, owner: Owner) -> None:
-        if self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and not surface.emission.is_constant:
-            self._context.reporter.warn(
-                f"{owner.name}: in the analytic integrator its triangles light others by a mean of each, in grey. "
-                "Fix: use Monte Carlo"
-            )
+    def _warn_of_analytic(self, surface: Surface, owner: Owner) -> None:
+        """What the analytic integrator leaves out of a surface."""
+        if self._context.depsgraph.scene_eval.pivot.integrator != "ANALYTIC":
+            return
+        left_out = []
+        if not surface.emission.is_constant:
+            left_out.append("its triangles light others by a mean of each, in grey")
+        if any(not dielectric.transmission.is_always(0) for dielectric in surface.dielectrics):
+            left_out.append("it mirrors light, but none comes through")
+        for what in left_out:
+            self._context.reporter.warn(f"{owner.name}: in the analytic integrator {what}. Fix: use Monte Carlo")
 
 
 def _volume_input(material: bpy.types.Material) -> Any:

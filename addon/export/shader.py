@@ -12,6 +12,7 @@ from dataclasses import replace
 import bpy
 
 from .census import INPUTS
+from .dielectric import Dielectric
 from .nodes import (
     MID_GREY,
     Owner,
@@ -174,16 +175,21 @@ def _grazing_reflectance(f0: Value, edge_tint: Value, feed: Socket, owner: Owner
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
-    owner.warn(feed.node, f"{feed.node.bl_label} is not supported, it is shown as an opaque, glossy surface")
-    return Surface.of(
-        owner.program,
-        diffuse=colour(feed.input("Color"), owner),
-        alpha=_alpha(feed, owner),
-        dielectric_weight=owner.program.number(1.0),
-        dielectric_ior=_ior(feed, owner),
-        multiscatter=_multiscatter(feed, owner),
-        normal=normal(feed, owner),
-    )
+    tint = colour(feed.input("Color"), owner).at_least(0.0)
+    return _boundary(feed, owner, reflection=tint, transmission=tint, multiscatter=_multiscatter(feed, owner))
+
+
+def _refraction(feed: Socket, owner: Owner) -> Surface:
+    """All that can comes through, in one bounce: Cycles gives nothing back of what that loses."""
+    _multiscatter(feed, owner)
+    none, zero = owner.program.colour((0, 0, 0)), owner.program.number(0.0)
+    tint = colour(feed.input("Color"), owner).at_least(0.0)
+    return _boundary(feed, owner, reflection=none, transmission=tint, fresnel=zero)
+
+
+def _boundary(feed: Socket, owner: Owner, **given: Value | bool) -> Surface:
+    dielectric = Dielectric.of(owner.program, alpha=_alpha(feed, owner), ior=_any_ior(feed, owner), **given)
+    return Surface.of(owner.program, dielectrics=(dielectric,), normal=normal(feed, owner))
 
 
 def _transparent(feed: Socket, owner: Owner) -> None:
@@ -206,19 +212,52 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     f0 = base.at_most(1.0)
     f82_tinted = not metallic.is_always(0) and feed.find_input("Specular IOR Level") is not None
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
+    glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
+    opaque = (1.0 - metallic) * (1.0 - glass)
     return Surface.of(
         owner.program,
-        diffuse=base * (1.0 - metallic),
+        diffuse=base * opaque,
         alpha=_alpha(feed, owner),
         conductor_f0=f0 * metallic,
         conductor_f90=_grazing_reflectance(f0, edge_tint, feed, owner) * metallic,
         conductor_weight=metallic,
-        dielectric_weight=owner.program.number(0.0) if ior.is_always(1) else 1.0 - metallic,
+        dielectric_weight=owner.program.number(0.0) if ior.is_always(1) else opaque,
         dielectric_ior=ior,
         dielectric_tint=tint,
+        weight=metallic + opaque,
+        dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass),
         multiscatter=_multiscatter(feed, owner),
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
+    )
+
+
+def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
+    """What of Principled is glass: light passes two boundaries, each takes the root of the colour. [Cycles 4.5
+    svm/closure.h]
+
+    Before Blender 4.0 what comes through may be rougher than what is mirrored, where GGX is chosen.
+    """
+    program, multiscatter = owner.program, _multiscatter(feed, owner)
+    white, black = program.colour((1, 1, 1)), program.colour((0, 0, 0))
+    if feed.find_input("Specular IOR Level") is not None:
+        f0_tint = colour(feed.input("Specular Tint"), owner).at_least(0.0)
+    else:
+        f0_tint = program.mixed(number(feed.input("Specular Tint"), owner), white, base)
+    alpha = _alpha(feed, owner)
+    ior = _any_ior(feed, owner)
+    whole = Dielectric.of(
+        program, transmission=base.root(), f0_tint=f0_tint, alpha=alpha, ior=ior, multiscatter=multiscatter
+    ).scaled(weight)
+    further = feed.find_input("Transmission Roughness")
+    if further is None or multiscatter or is_constant(further, 0.0):
+        return (whole,)
+    roughness = 1.0 - (1.0 - number(feed.input("Roughness"), owner).clamped()) * (
+        1.0 - number(further, owner).clamped()
+    )
+    return (
+        replace(whole, transmission=black),
+        replace(whole, reflection=black, alpha=roughness * roughness),
     )
 
 
@@ -241,13 +280,17 @@ def _dielectric(feed: Socket, owner: Owner, base: Value) -> tuple[Value, Value]:
     return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, hue)
 
 
+def _any_ior(feed: Socket, owner: Owner) -> Value:
+    return number(feed.input("IOR"), owner).at_least(1e-5)
+
+
 def _ior(feed: Socket, owner: Owner) -> Value:
     """The index of refraction, at least 1.
 
-    One below reflects all light past some angle, which the core does not know; its inverse reflects as much at normal
-    incidence.
+    One below reflects all light past some angle, which the core's base does not know; its inverse reflects as much at
+    normal incidence.
     """
-    ior = number(feed.input("IOR"), owner).at_least(1e-5)
+    ior = _any_ior(feed, owner)
     if ior.is_constant and ior.numbers[0] < 1:
         owner.warn(feed.node, "an IOR below 1 is not supported, it is shown as 1 / IOR")
     return ior if ior.is_constant and ior.numbers[0] >= 1 else ior.at_least(1.0 / ior)
@@ -290,6 +333,7 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface | None]] = {
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,
     "BSDF_GLASS": _glass,
+    "BSDF_REFRACTION": _refraction,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
     "BACKGROUND": _emission,

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .dielectric import Dielectric, as_few, at_most
 from .program import Program, Register, Value
 
 _BASE = (
@@ -22,6 +23,7 @@ class Surface:
 
     The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
     are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
+    dielectrics: what of it is glass.
     """
 
     diffuse: Value
@@ -37,6 +39,7 @@ class Surface:
     translucent: Value
     multiscatter: bool = False
     further: tuple[Surface, ...] = ()
+    dielectrics: tuple[Dielectric, ...] = ()
     normal: Value | None = None  # of all lobes, world space; None: the mesh's own
     normal_is_own: bool = False  # it is as displacement would turn the mesh's own
     ndf: Any = None  # pivot_core.TabulatedNdf of all its bases; None: each has its own alpha
@@ -77,6 +80,7 @@ class Surface:
             emission=self.emission * weight,
             translucent=self.translucent * weight,
             further=tuple(surface.scaled(weight) for surface in self.further),
+            dielectrics=tuple(dielectric.scaled(weight) for dielectric in self.dielectrics),
         )
 
     def gloss(self) -> float:
@@ -89,7 +93,7 @@ class Surface:
         """Those that reflect, each as a surface of nothing else."""
         if not self.diffuse.is_always(0) or self.gloss() > 0:
             black = self.program.colour((0, 0, 0))
-            yield replace(self, emission=black, translucent=black, further=())
+            yield replace(self, emission=black, translucent=black, further=(), dielectrics=())
         yield from self.further
 
     def within(self, lobes: int) -> tuple[Surface, bool]:
@@ -98,7 +102,10 @@ class Surface:
         The highlights of the weakest bases become those of the one before them.
         """
         bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
-        most = 1 + lobes - (not self.translucent.is_always(0))
+        left = lobes - (not self.translucent.is_always(0))
+        if len(self.dielectrics) > left:
+            return replace(self, dielectrics=at_most(self.dielectrics, left)).within(lobes)[0], False
+        most = 1 + left - len(self.dielectrics)
         if len(bases) <= most:
             return self, True
         last = bases[most - 1]
@@ -114,6 +121,7 @@ class Surface:
         lobes = [(kind, surface._base_values(), surface._base_settings() | table) for surface in beside]
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
+        lobes += [dielectric.lobe() for dielectric in self.dielectrics]
         own = first._base_values() | {"emission": self.emission}
         material = core.Material(
             **_numbers(own),
@@ -132,7 +140,7 @@ class Surface:
 
     def _is_light_alone(self) -> bool:
         """Whether nothing of it is turned by a normal."""
-        return self.translucent.is_always(0) and not list(self.bases())
+        return self.translucent.is_always(0) and not self.dielectrics and not list(self.bases())
 
     def _base_values(self) -> dict[str, Value]:
         return {name: getattr(self, name) for name in _BASE}
@@ -176,13 +184,14 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
         a.program,
         emission=a.emission + b.emission,
         translucent=a.translucent + b.translucent,
+        dielectrics=as_few(a.dielectrics + b.dielectrics),
         normal=next((normal for normal in normals if normal is not None), None),
     )
     return _surface_of(bases, beside), len(normals) < 2 or normals[0] == normals[1]
 
 
 def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
-    """Bases, with the emission, the normal and what comes through of another surface."""
+    """Bases, with the emission, the normal, the glass and what comes through of another surface."""
     first, *further = bases or [Surface.of(beside.program)]
     return replace(
         first,
@@ -190,6 +199,7 @@ def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
         translucent=beside.translucent,
         normal=beside.normal,
         further=tuple(further),
+        dielectrics=beside.dielectrics,
     )
 
 

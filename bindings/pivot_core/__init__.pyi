@@ -766,6 +766,16 @@ LOBES: dict = {
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
     },
+    "dielectric": {
+        "reflection": (3, 0.0, 3.4028234663852886e38),
+        "transmission": (3, 0.0, 3.4028234663852886e38),
+        "f0_tint": (3, 0.0, 3.4028234663852886e38),
+        "alpha": (1, 0.0, 1.0),
+        "ior": (1, 9.999999747378752e-06, 3.4028234663852886e38),
+        "fresnel": (1, 0.0, 1.0),
+        "multiscatter": (1, 0.0, 1.0),
+        "weight": (1, 0.0, 3.4028234663852886e38),
+    },
 }
 LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3

@@ -14,7 +14,8 @@ def f0_from_ior(ior: typing.Any) -> typing.Any:
 
 def fresnel_dielectric(cos_theta: typing.Any, ior: typing.Any) -> typing.Any:
     """
-    fresnel_dielectric(cos_theta, ior): unpolarised reflectance from outside, cos_theta (...) in [0, 1], ior (...) >= 1.
+    fresnel_dielectric(cos_theta, ior): unpolarised reflectance, cos_theta (...) in [0, 1]; ior (...) > 0: of the other side,
+    over that of the side where the light is.
     """
 
 def ggx_eval(alpha: typing.Any, wo_local: typing.Any, wi_local: typing.Any) -> typing.Any:

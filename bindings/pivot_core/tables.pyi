@@ -10,9 +10,12 @@ import typing
 __all__: list[str] = [
     "alpha_nodes",
     "cos_nodes",
+    "eta_nodes",
     "ggx_albedo",
     "ggx_average_albedo",
     "ggx_dielectric_weight",
+    "ggx_glass_albedo",
+    "ggx_glass_average_albedo",
     "ggx_ltc",
     "ggx_ltc_from_node",
     "ggx_sptd",
@@ -30,6 +33,11 @@ def cos_nodes(count: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.
     cos_nodes(count): cosine at the nodes of a table of that size, 0 to 1, even in its square root.
     """
 
+def eta_nodes(count: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    eta_nodes(count): relative index of refraction at the nodes of a table of that size, 1 in the middle.
+    """
+
 def ggx_albedo(alpha: typing.Any, cos_o: typing.Any) -> typing.Any:
     """
     ggx_albedo(alpha, cos_o): the integral of GGX BRDF * cos over the hemisphere, F = 1, from the table.
@@ -44,6 +52,18 @@ def ggx_dielectric_weight(alpha: typing.Any, cos_o: typing.Any, ior: typing.Any)
     """
     ggx_dielectric_weight(alpha, cos_o, ior): s such that the GGX lobe under the dielectric Fresnel curve has albedo
     lerp(F0, 1, s) * ggx_albedo, from the table. ior (...) >= 1, held at 3 above that.
+    """
+
+def ggx_glass_albedo(alpha: typing.Any, cos_o: typing.Any, eta: typing.Any) -> typing.Any:
+    """
+    ggx_glass_albedo(alpha, cos_o, eta): (reflected (...), refracted (...)), what a rough dielectric boundary sends to the
+    viewer by single scattering where all light around is 1, by the side that it comes from, from the table. eta: the other
+    side's index of refraction over the viewer's.
+    """
+
+def ggx_glass_average_albedo(alpha: typing.Any, eta: typing.Any) -> typing.Any:
+    """
+    ggx_glass_average_albedo(alpha, eta): 2 int E cos dcos of both of ggx_glass_albedo's together, from the table.
     """
 
 def ggx_ltc(alpha: typing.Any, wo_local: typing.Any) -> typing.Any:

@@ -14,13 +14,6 @@ T dielectric_mean(T ior) {
     return (ior - T(1)) / (T(4.08567f) + T(1.00071f) * ior);
 }
 
-/// What single scattering must be multiplied by for the lobe to keep its energy, given its mean Fresnel [KullaConty17].
-template <class T>
-Vec3<T> multiscatter_scale(const Vec3<T>& mean_fresnel, T albedo, T mean_albedo) {
-    const Vec3<T> bounces = mean_fresnel * mean_albedo / (Vec3<T>(T(1)) - mean_fresnel * (T(1) - mean_albedo));
-    return Vec3<T>(T(1)) + bounces * ((T(1) - albedo) / albedo);
-}
-
 /// What the GGX lobe reflects towards wo over what it would without Fresnel. dielectric_share: where the dielectric
 /// stands between normal (0) and grazing incidence (1).
 template <class T>

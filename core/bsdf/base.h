@@ -94,6 +94,14 @@ struct FacetAlbedoOf {
     T towards_wo, mean;
 };
 
+/// What single scattering must be multiplied by for microfacets to keep the energy of what they reflect or let through,
+/// given the mean of its colours over one bounce [KullaConty17].
+template <class T>
+Vec3<T> multiscatter_scale(const Vec3<T>& mean_color, T albedo, T mean_albedo) {
+    const Vec3<T> bounces = mean_color * mean_albedo / (Vec3<T>(T(1)) - mean_color * (T(1) - mean_albedo));
+    return Vec3<T>(T(1)) + bounces * ((T(1) - albedo) / albedo);
+}
+
 /// wo_local.z > 0. A black one has neither lobe's weight; sampling it yields zero.
 template <class T>
 BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local);

@@ -20,10 +20,11 @@ T f0_from_ior(T ior) {
     return sqr((ior - T(1)) * inverse(ior + T(1)));
 }
 
-/// Unpolarised reflectance of a dielectric boundary for light from outside, cos_theta >= 0 and ior >= 1.
+/// Unpolarised reflectance of a dielectric boundary, cos_theta >= 0; ior: of the other side, over that of the side
+/// where the light is. Below 1 all is reflected past some angle; cos_theta = 0 is then no angle.
 template <class T>
 T fresnel_dielectric(T cos_theta, T ior) {
-    const T g = sqrt(sqr(ior) - T(1) + sqr(cos_theta));
+    const T g = safe_sqrt(sqr(ior) - T(1) + sqr(cos_theta));
     const T s = (g - cos_theta) * inverse(g + cos_theta);
     const T p = (cos_theta * (g + cos_theta) - T(1)) * inverse(cos_theta * (g - cos_theta) + T(1));
     return T(0.5) * sqr(s) * (T(1) + sqr(p));

@@ -7,14 +7,16 @@
 #include <utility>
 
 #include "core/bsdf/highlight.h"
+#include "core/bsdf/lobes/dielectric.h"
 #include "core/bsdf/lobes/further_base.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
+#include "core/bsdf/material.h"
 
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>>;
+using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
@@ -24,7 +26,7 @@ concept HasTable = requires {
 
 /// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
 /// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light.
+/// what is no diffuse light; and its Parameters turn_over(mask), which makes them those of the surface's back.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
@@ -49,8 +51,8 @@ concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters,
     { lobe.albedo(w) } -> std::same_as<Vec3<T>>;
     /// What the pass of diffuse colours shows of it.
     { lobe.diffuse() } -> std::same_as<Vec3<T>>;
-    /// (wo): the base that reflects what this lobe sends to wo, or about that; of one that transmits, in a frame turned
-    /// over. has_closed_form: whether the analytic integrator takes the base for the lobe.
+    /// (wo): the base that reflects what this lobe sends to wo, or about that; of one that only transmits, in a frame
+    /// turned over. has_closed_form: whether the analytic integrator takes the base for the lobe.
     { lobe.closed_form(w) } -> std::same_as<BaseOf<T>>;
     { L::has_closed_form } -> std::convertible_to<bool>;
     /// (least alpha): the lobe, its GGX alpha at least that and all else as it was, even how much it reflects.
@@ -78,6 +80,23 @@ void for_each_lobe_kind(const Visit& visit) {
         float kind = 0.0f;
         (visit.template operator()<L>(T(++kind)), ...);
     }(std::type_identity<LobeKinds<T>>{});
+}
+
+/// The material as the surface's back has it, where that is seen.
+template <class T>
+void turn_over(MaterialOf<T>& material, const Mask<T>& is_behind) {
+    for (LobeOf<T>& record : material.lobes) {
+        if (!any(record.kind > T(0))) return;
+        for_each_lobe_kind<T>([&]<class L>(T kind) {
+            if constexpr (requires(typename L::Parameters p) { p.turn_over(is_behind); }) {
+                const Mask<T> is_kind = record.kind == kind;
+                if (!any(is_kind && is_behind)) return;
+                auto parameters = record.template read<typename L::Parameters>(is_kind);
+                parameters.turn_over(is_behind);
+                record.write(parameters, is_kind);
+            }
+        });
+    }
 }
 
 /// Calls visit(lobe, mask) for each kind that the record has in some lane, those of the mask.

@@ -228,7 +228,7 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
     for (const HitSurface& hit : hits)
         for_each_lobe(hit.surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
             if constexpr (L::has_closed_form)
-                add(hit, L::transmits ? turned_over(hit.point) : hit.point, lobe.closed_form(hit.surface.wo_local));
+                add(hit, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
         });
     return parts;
 }

@@ -44,7 +44,12 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
     const Vec3b wo = -arrived.direction;
     const SurfacePointOf<Batch> point = surface_point(corners, arrived.hit.barycentric, wo);
     const Shader& shader = scene.shaders()[lanes[0]->material];
-    if (shader.is_constant()) return {point, pack_materials(materials)};
+    const BatchMask is_behind = point.front < Batch(0.0f);
+    if (shader.is_constant()) {
+        ArrivalBatch batch{point, pack_materials(materials)};
+        turn_over(batch.material, is_behind);
+        return batch;
+    }
     PlaceLanes place_lanes{.meshes = {},
                            .objects = {},
                            .triangles = {},
@@ -63,6 +68,7 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
     }
     run_on_surfaces(shader.program, place_lanes, point, arrived.hit.barycentric, memory);
     ArrivalBatch batch{point, material_at(shader, memory.registers)};
+    turn_over(batch.material, is_behind);
     const auto unit = [&](const std::array<std::uint32_t, 3>& registers, const Vec3b& otherwise) {
         const Vec3b v(memory.registers[registers[0]], memory.registers[registers[1]], memory.registers[registers[2]]);
         const Batch v2 = dot(v, v);

@@ -163,7 +163,7 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
         strategy == LightSampling::light ? Batch(1.0f) : balance(pdf, pdf_omega(vertices.surface, wi_local));
     // One bounce on, as a BSDF sample would meet it.
     const Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
-    return {.radiance = select(vertices.point.faces(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
+    return {.radiance = select(vertices.is_open_to(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
                                Vec3b(Batch(0.0f))),
             .wi = wi,
             .reach_m = std::numeric_limits<Batch>::infinity()};

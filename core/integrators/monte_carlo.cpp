@@ -139,7 +139,7 @@ struct Scattered {
     Vec3b throughput;
     Batch pdf_omega;
     BatchMask goes_on;  ///< elsewhere the sample is worth nothing, or not wanted
-    BatchMask is_glossy;
+    WordBatch ray_kind;
     Batch u_roulette;
 };
 
@@ -150,6 +150,9 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     const Vec3b wi = vertices.point.frame.to_world(wi_local);
     const Batch zero(0.0f), pdf = pdf_omega(vertices.surface, wi_local);
     const Vec3b throughput = batch.lanes.throughput * eval(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
+    const WordBatch ray_kind =
+        select(samples_highlight(vertices.surface, u_lobe.x), WordBatch(glossy_ray), WordBatch(diffuse_ray)) |
+        select(wi_local.z < zero, WordBatch(transmission_ray), WordBatch(0u));
     const BatchMask goes_on = wanted && pdf > zero && vertices.is_open_to(wi) && max_component(throughput) > zero;
     return {.rays = {.origin = vertices.point.ray_origin(wi),
                      .direction = wi,
@@ -158,7 +161,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
             .throughput = throughput,
             .pdf_omega = pdf,
             .goes_on = goes_on,
-            .is_glossy = samples_highlight(vertices.surface, u_lobe.x),
+            .ray_kind = ray_kind,
             .u_roulette = u_lobe.y};  // free: the first number chose the lobe
 }
 
@@ -167,14 +170,13 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
             const VertexLights& lights, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
     const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
-    const WordBatch ray_kind = select(scattered.is_glossy, WordBatch(glossy_ray), WordBatch(diffuse_ray));
     const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
     std::array<Path, batch_size> paths =
         unpack<PathOf>({.arrival = {.direction = scattered.rays.direction,
                                     .hit = hit,
                                     .material = batch.lanes.arrival.material,
                                     .footprint_m = batch.lanes.arrival.footprint_m + spread * hit.distance_m,
-                                    .ray_kind = ray_kind},
+                                    .ray_kind = scattered.ray_kind},
                         .throughput = scattered.throughput,
                         .spread = spread,
                         .emission_weight = Batch(1.0f),
@@ -183,7 +185,8 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
     Vec3b sky(Batch(0.0f));
     if (scene.has_world() && any(is_lost))
         sky =
-            select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
+            select(is_lost,
+                   world_met(work, scattered.rays.direction, scattered.pdf_omega, scattered.ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
     std::array<Rgb, batch_size> left, lamps;  // what the media leave on the way, and of lamps on it
     if (fog) {

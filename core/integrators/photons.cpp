@@ -169,8 +169,8 @@ void deposit(const Surface& surface, const SurfacePoint& point, const Photon& ph
              const CellSpace& cells, std::uint32_t bounce, Deposits& deposits) {
     deposit_base(surface, point, photon, owner, cells, bounce, deposits);
     for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-        deposit_base(lobe.closed_form(surface.wo_local), L::transmits ? turned_over(point) : point, photon, owner,
-                     cells, bounce, deposits);
+        deposit_base(lobe.closed_form(surface.wo_local), L::reflects ? point : turned_over(point), photon, owner, cells,
+                     bounce, deposits);
     });
 }
 

@@ -29,6 +29,18 @@ T ior_coordinate(T ior) {
 }
 inline float ior_at(float coordinate) { return 1.f + 2.f * sqr(coordinate); }
 
+/// Relative index of refraction from 0 to infinity, 1 in the middle and dense there.
+template <class T>
+T eta_coordinate(T eta) {
+    const T ratio = (eta - T(1)) / (eta + T(1)), root = sqrt(abs(ratio));
+    return T(0.5) + T(0.5) * select(ratio < T(0), -root, root);
+}
+/// Its ends stand for 1 / 1000 and 1000.
+inline float eta_at(float coordinate) {
+    const float root = 2.f * coordinate - 1.f, ratio = max(-0.998f, min(root * abs(root), 0.998f));
+    return (1.f + ratio) / (1.f - ratio);
+}
+
 /// The interval between nodes `index` and `index + 1` of `nodes`, and how far along it.
 template <class T>
 struct TableCell {

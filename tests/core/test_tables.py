@@ -12,6 +12,7 @@ LUT = Path(__file__).parents[2] / "lut"
 sys.path.insert(0, str(LUT))
 
 import ggx_dielectric  # noqa: E402
+import ggx_glass  # noqa: E402
 import ggx_ltc  # noqa: E402
 import ggx_sptd  # noqa: E402
 from errors import random_views  # noqa: E402
@@ -161,3 +162,32 @@ def test_dielectric_weight_is_a_weight(ior: float) -> None:
     weight = tables.ggx_dielectric_weight(alpha, cos_o, ior)
     assert weight.min() >= 0
     assert weight.max() <= 1
+
+
+@pytest.mark.parametrize(("row", "column"), [(5, 20), (20, 5), (31, 31)])
+def test_glass_table_is_what_its_program_makes(row: int, column: int) -> None:
+    alpha, cos_o = float(tables.alpha_nodes(32)[row]), float(tables.cos_nodes(32)[column])
+    layers = [3, 12, 20, 29]
+    made = ggx_glass.albedos(alpha, cos_o, tables.eta_nodes(33)[layers].astype(np.float64))
+    np.testing.assert_allclose(stored("ggx_glass", 32, 32, 33, 2)[row, column, layers], made, rtol=1e-5, atol=1e-6)
+    fetched = np.stack(tables.ggx_glass_albedo(alpha, cos_o, tables.eta_nodes(33)[layers]), -1)
+    np.testing.assert_allclose(fetched, made, atol=1e-4)
+
+
+def test_glass_table_is_near_what_it_stands_for() -> None:
+    """Between its nodes, for the indices of water to diamond from either side."""
+    etas = np.array([1.33, 1.5, 2.4, 1 / 1.33, 1 / 1.5, 1 / 2.4])
+    errors = []
+    for alpha, cos_o in zip(*random_views(100, 6), strict=True):
+        made = ggx_glass.albedos(alpha, cos_o, etas).sum(-1)
+        errors.append(np.abs(np.sum(tables.ggx_glass_albedo(alpha, cos_o, etas), 0) / made - 1))
+    assert np.all(np.median(errors, 0) < 2e-3)
+    assert np.all(np.quantile(errors, 0.95, 0) < 1e-2)
+    assert np.max(errors) < 3e-2
+
+
+def test_glass_average_is_the_mean_over_the_hemisphere() -> None:
+    for alpha, eta in ((0.1, 1.5), (0.6, 1 / 1.5), (1.0, 2.0)):
+        cosines = (np.arange(2000) + 0.5) / 2000
+        both = sum(tables.ggx_glass_albedo(alpha, cosines, eta))
+        assert tables.ggx_glass_average_albedo(alpha, eta) == pytest.approx((2 * cosines * both).mean(), abs=5e-3)

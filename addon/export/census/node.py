@@ -23,6 +23,7 @@ NODE = {
     "ShaderNodeBsdfAnisotropic": Table(used="distribution"),
     "ShaderNodeBsdfGlossy": Table(used="distribution"),
     "ShaderNodeBsdfGlass": Table(used="distribution"),
+    "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
@@ -116,12 +117,10 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal",
+        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
-            ("Transmission Weight", 0.0),
-            ("Transmission", 0.0),
             ("Coat Weight", 0.0),
             ("Clearcoat", 0.0),
             ("Sheen Weight", 0.0),
@@ -133,7 +132,7 @@ INPUTS = {
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
         "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
-        "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Transmission Roughness, Thin Wall@5.2,"
+        "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Normal", left_out=(("Roughness", 0.0),), no_meaning="Weight"),
@@ -147,10 +146,12 @@ INPUTS = {
         left_out=(("Anisotropy", 0.0), *_THIN_FILM),
         no_meaning="IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
     ),
-    "ShaderNodeBsdfGlass": Inputs(  # which is reported whenever it is met
+    "ShaderNodeBsdfGlass": Inputs(
         "Color, Roughness, IOR, Normal",
-        no_meaning="Weight, Thin Film Thickness@5.0, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
+        left_out=_THIN_FILM,
+        no_meaning="Weight, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
     ),
+    "ShaderNodeBsdfRefraction": Inputs("Color, Roughness, IOR, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),

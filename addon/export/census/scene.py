@@ -84,6 +84,7 @@ SCENE = {
             ),
             LeftOut("blur_glossy", lambda radius: radius <= 1, "Pivot's own Filter Glossy counts"),
             LeftOut("caustics_reflective", True, "caustics are shown"),
+            LeftOut("caustics_refractive", True, "caustics are shown"),
             LeftOut("use_fast_gi", False, "light bounces as it does"),
             LeftOut("film_exposure", 1.0, "the picture is as bright as with 1"),
             LeftOut("film_transparent_glass", False, "it is opaque", when=_is_transparent),
@@ -92,6 +93,7 @@ SCENE = {
             _bounce_limit("max_bounces", 12, what="Cycles' Max Bounces is"),
             _bounce_limit("diffuse_bounces", 4, what="Cycles' limit of Diffuse Bounces is"),
             _bounce_limit("glossy_bounces", 4, what="Cycles' limit of Glossy Bounces is"),
+            _bounce_limit("transmission_bounces", 12, what="Cycles' limit of Transmission Bounces is"),
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),
@@ -104,10 +106,10 @@ SCENE = {
         sampling_pattern scrambling_distance preview_scrambling_distance auto_scrambling_distance use_layer_samples
         light_sampling_threshold use_adaptive_sampling adaptive_threshold adaptive_min_samples
         use_preview_adaptive_sampling preview_adaptive_threshold preview_adaptive_min_samples direct_light_sampling_type
-        min_light_bounces min_transparent_bounces caustics_refractive use_guiding use_deterministic_guiding
+        min_light_bounces min_transparent_bounces use_guiding use_deterministic_guiding
         guiding_distribution_type use_surface_guiding surface_guiding_probability use_volume_guiding
         guiding_training_samples volume_guiding_probability use_guiding_direct_light use_guiding_mis_weights
-        transmission_bounces volume_bounces transparent_max_bounces volume_step_rate volume_preview_step_rate
+        volume_bounces transparent_max_bounces volume_step_rate volume_preview_step_rate
         volume_max_steps dicing_rate preview_dicing_rate max_subdivisions dicing_camera offscreen_dicing_scale
         film_transparent_roughness seed use_animated_seed debug_bvh_type debug_use_spatial_splits debug_use_hair_bvh
         debug_use_compact_bvh debug_bvh_time_steps bake_type camera_cull_margin distance_cull_margin

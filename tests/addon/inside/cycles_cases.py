@@ -60,11 +60,14 @@ def main(folder: Path) -> Any:
     """Returns the names of each light sampling's scenes, and those of the materials from left to right."""
     rendered: dict[str, list[str]] = {light_sampling: [] for light_sampling in PIVOT_SAMPLES}
     scenes = LIGHTS | {"world": {}, "world_nodes": {}, "bounces": LIGHTS["square"], "lobes": LIGHTS["square"]}
+    scenes["glass"] = LIGHTS["square"]
     for name, light in scenes.items():
         _scene(name, dict(light))
         if name == "lobes":
             _add_lobes()
-        bounces = 3 if name == "bounces" else 0
+        if name == "glass":
+            _add_glass()
+        bounces = {"bounces": 3, "glass": 8}.get(name, 0)
         _cycles(folder / f"{name}_CYCLES.exr", bounces)
         for light_sampling, scenes in rendered.items():
             if _is_compared(name, light_sampling):
@@ -126,6 +129,16 @@ def _add_lobes() -> None:
     parts.light("behind", "POINT", (0.2, -0.9, 2.8), energy=60, **SPHERE)
 
 
+def _add_glass() -> None:
+    """Balls of clear and of frosted glass in the places of the plastic and the metal one, and a sky around."""
+    looks = {"plastic": {"Roughness": 0.0}, "metal": {"Roughness": 0.3, "Color": (0.7, 0.9, 0.8, 1)}}
+    for name, look in looks.items():
+        material, node = parts.shaded("glass", "ShaderNodeBsdfGlass", IOR=1.5, **look)
+        node.distribution = "GGX"
+        bpy.data.objects[name].data.materials[0] = material
+    parts.world((0.3, 0.4, 0.5))
+
+
 def _mix(tree: Any, a: Any, b: Any) -> None:
     """Two shaders by halves, as the material's surface."""
     mix = tree.nodes.new("ShaderNodeMixShader")
@@ -184,6 +197,7 @@ def _cycles(path: Path, bounces: int) -> None:
     settings.sample_clamp_indirect = 0
     settings.blur_glossy = 0
     settings.max_bounces = settings.diffuse_bounces = settings.glossy_bounces = bounces
+    settings.transmission_bounces = bounces
     _save(path)
 
 

@@ -169,11 +169,18 @@ def _nearest() -> None:
     shader("bubble", "ShaderNodeBsdfPrincipled", IOR=0.5)
     shader("glass_bubble", "ShaderNodeBsdfGlass", Color=GREEN, IOR=0.5, Roughness=0.5).distribution = "GGX"
     shader("glass", "ShaderNodeBsdfGlass", Color=GREEN, IOR=1.5, Roughness=0.5).distribution = "GGX"
+    shader("refraction", "ShaderNodeBsdfRefraction", Color=RED, IOR=1.2, Roughness=0.5).distribution = "GGX"
+    whole = "Transmission_Weight" if NEW else "Transmission"
+    shader("window", "ShaderNodeBsdfPrincipled", Base_Color=RED, IOR=1.6, Roughness=0.5, **{whole: 1.0})
+    shader("half_glass", "ShaderNodeBsdfPrincipled", Base_Color=RED, Metallic=0.2, **{whole: 0.5})
+    if not NEW:
+        old = shader("frosted", "ShaderNodeBsdfPrincipled", Roughness=0.2, Transmission=1.0, Transmission_Roughness=0.5)
+        old.distribution = "GGX"
     shader("translucent", "ShaderNodeBsdfTranslucent", Color=GREEN)
     shader("see_through", "ShaderNodeBsdfTransparent")
     shader("oren_nayar", "ShaderNodeBsdfDiffuse", Color=RED, Roughness=0.5)
     shader("beckmann", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.5).distribution = "BECKMANN"
-    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Transmission Weight" if NEW else "Transmission": 1.0}
+    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Sheen Weight" if NEW else "Sheen": 1.0}
     shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **left_out)
     feed(shader("fog", "ShaderNodeVolumePrincipled"), "Color", "ShaderNodeTexNoise")
 
@@ -218,6 +225,17 @@ def _nearest() -> None:
         tree.links.new(node.outputs[0], mix.inputs[index])
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
     use(paper)
+
+    frosted, tree = parts.material("frosted_mix")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    for index, kind in enumerate(("Glass", "Diffuse"), start=1):
+        node = tree.nodes.new(f"ShaderNodeBsdf{kind}")
+        node.inputs["Color"].default_value = GREEN
+        tree.links.new(node.outputs[0], mix.inputs[index])
+        if kind == "Glass":
+            node.distribution = "GGX"
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(frosted)
 
     many, tree = parts.material("many_highlights")
     total = None

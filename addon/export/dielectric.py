@@ -1,0 +1,76 @@
+"""Boundaries between two media as values: the core's lobes of glass, that shaders scale and add."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from .program import Program, Value
+
+_COLOURS = ("reflection", "transmission", "weight")
+_VALUES = (*_COLOURS, "f0_tint", "alpha", "ior", "fresnel")
+
+
+@dataclass(frozen=True)
+class Dielectric:
+    """Numbers of the core's lobe: core/bsdf/lobes/dielectric.h says what they are."""
+
+    reflection: Value
+    transmission: Value
+    f0_tint: Value
+    alpha: Value
+    ior: Value
+    fresnel: Value
+    weight: Value
+    multiscatter: bool = False
+
+    @staticmethod
+    def of(program: Program, **given: Any) -> Dielectric:
+        """A smooth one of what is given: white where nothing is, and mirroring what Fresnel says."""
+        white, one = program.colour((1, 1, 1)), program.number(1.0)
+        defaults = {
+            "reflection": white,
+            "transmission": white,
+            "f0_tint": white,
+            "alpha": program.number(0.0),
+            "ior": program.number(1.5),
+            "fresnel": one,
+            "weight": one,
+        }
+        return Dielectric(**(defaults | given))
+
+    def scaled(self, weight: Value) -> Dielectric:
+        return replace(self, **{name: getattr(self, name) * weight for name in _COLOURS})
+
+    def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
+        """As Surface.core_shader gives lobes to the core."""
+        values = {name: getattr(self, name) for name in _VALUES}
+        return "dielectric", values, {"multiscatter": float(self.multiscatter)}
+
+    def _shape(self) -> tuple[Value | bool, ...]:
+        return self.f0_tint, self.alpha, self.ior, self.fresnel, self.multiscatter
+
+
+def as_few(dielectrics: Iterable[Dielectric]) -> tuple[Dielectric, ...]:
+    """Those of one shape as one."""
+    found: list[Dielectric] = []
+    for each in dielectrics:
+        place = next((i for i, other in enumerate(found) if other._shape() == each._shape()), None)
+        if place is None:
+            found.append(each)
+        else:
+            found[place] = _sum(found[place], each)
+    return tuple(found)
+
+
+def at_most(dielectrics: tuple[Dielectric, ...], most: int) -> tuple[Dielectric, ...]:
+    """So many of them: the later ones take the shape of the last that stays."""
+    kept = list(dielectrics[:most])
+    for each in dielectrics[most:]:
+        kept[-1] = _sum(kept[-1], each)
+    return tuple(kept)
+
+
+def _sum(a: Dielectric, b: Dielectric) -> Dielectric:
+    return replace(a, **{name: getattr(a, name) + getattr(b, name) for name in _COLOURS})
