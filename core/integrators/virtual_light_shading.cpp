@@ -1,5 +1,6 @@
 #include "core/integrators/virtual_light_shading.h"
 
+#include "core/integrators/passage.h"
 #include "core/sampling/sobol.h"
 #include "core/shading/ggx_gaussian_light.h"
 
@@ -104,7 +105,9 @@ class LightCut {
     }
 
     /// One shadow ray to each light that matters; the rest is seen as these are in the mean.
-    void trace(const Scene& scene) {
+    void trace(const Scene& scene, std::uint32_t max_passages) {
+        const ShadowPath shadow_path{max_passages, 0, WordBatch(camera_ray)};
+        ProgramMemory memory;
         const Batch zero(0.0f);
         Batch seen(0.0f), all(0.0f);
         std::vector<BatchMask> asked(cut_.size());
@@ -120,6 +123,11 @@ class LightCut {
                                     select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
             // Light from places that are all behind the surface comes through it.
             cut.visible = select(place.is_faced, scene.visibility(rays), zero);
+            if (scene.has_transparency()) {
+                RayOf<Batch> open = rays;
+                open.far_m = select(cut.visible > zero, rays.far_m, zero);
+                cut.visible *= mean_component(light_through(scene, open, shadow_path, memory));
+            }
             seen += select(asked[k], size * cut.visible, zero);
             all += select(asked[k], size, zero);
         }
@@ -354,7 +362,7 @@ IndirectReflection reflect_virtual_lights(const Scene& scene, const RenderSettin
     LightCut cut(batch, settings, sample_index);
     cut.cut(lights);
     cut.refine();
-    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
+    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene, settings.max_passages);
     return cut.result();
 }
 
