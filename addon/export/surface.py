@@ -22,6 +22,7 @@ class Surface:
 
     The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
     are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
+    transparency: the colour of light that goes straight on; opacity: how much of a surface all else is.
     """
 
     diffuse: Value
@@ -35,6 +36,8 @@ class Surface:
     weight: Value
     emission: Value
     translucent: Value
+    transparency: Value
+    opacity: Value
     multiscatter: bool = False
     further: tuple[Surface, ...] = ()
     normal: Value | None = None  # of all lobes, world space; None: the mesh's own
@@ -58,6 +61,8 @@ class Surface:
             "weight": one,
             "emission": black,
             "translucent": black,
+            "transparency": black,
+            "opacity": one,
         }
         return Surface(**(defaults | given))
 
@@ -76,6 +81,8 @@ class Surface:
             weight=self.weight * weight,
             emission=self.emission * weight,
             translucent=self.translucent * weight,
+            transparency=self.transparency * weight,
+            opacity=self.opacity * weight,
             further=tuple(surface.scaled(weight) for surface in self.further),
         )
 
@@ -89,7 +96,7 @@ class Surface:
         """Those that reflect, each as a surface of nothing else."""
         if not self.diffuse.is_always(0) or self.gloss() > 0:
             black = self.program.colour((0, 0, 0))
-            yield replace(self, emission=black, translucent=black, further=())
+            yield replace(self, emission=black, translucent=black, transparency=black, further=())
         yield from self.further
 
     def within(self, lobes: int) -> tuple[Surface, bool]:
@@ -115,6 +122,8 @@ class Surface:
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
         own = first._base_values() | {"emission": self.emission}
+        if not self.transparency.is_always(0):
+            own |= {"transparency": self.transparency, "opacity": self.opacity}
         material = core.Material(
             **_numbers(own),
             **first._base_settings(),
@@ -176,18 +185,22 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
         a.program,
         emission=a.emission + b.emission,
         translucent=a.translucent + b.translucent,
+        transparency=a.transparency + b.transparency,
+        opacity=a.opacity + b.opacity,
         normal=next((normal for normal in normals if normal is not None), None),
     )
     return _surface_of(bases, beside), len(normals) < 2 or normals[0] == normals[1]
 
 
 def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
-    """Bases, with the emission, the normal and what comes through of another surface."""
+    """Bases, with all else of another surface."""
     first, *further = bases or [Surface.of(beside.program)]
     return replace(
         first,
         emission=beside.emission,
         translucent=beside.translucent,
+        transparency=beside.transparency,
+        opacity=beside.opacity,
         normal=beside.normal,
         further=tuple(further),
     )

@@ -116,7 +116,7 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal",
+        "Emission Color, Emission Strength, Normal, Alpha",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
@@ -129,7 +129,6 @@ INPUTS = {
             ("Anisotropic", 0.0),
             ("Diffuse Roughness", 0.0),
             ("Thin Film Thickness", 0.0),
-            ("Alpha", 1.0),
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
         "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
@@ -151,7 +150,7 @@ INPUTS = {
         "Color, Roughness, IOR, Normal",
         no_meaning="Weight, Thin Film Thickness@5.0, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
     ),
-    "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
+    "ShaderNodeBsdfTransparent": Inputs("Color", no_meaning="Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeVolumeScatter": Inputs(
