@@ -113,7 +113,8 @@ struct ShadowPath {
 /// What transparent surfaces leave of light along shadow rays, of which none meets what hides it.
 Vec3b light_through(const Scene& scene, const RayOf<Batch>& rays, const ShadowPath& path, ProgramMemory& memory);
 
-/// The same of rays from surfaces that a camera sees, whatever these meet: 0 where it is opaque.
+/// The same of rays from surfaces that a camera sees, whatever these meet: 0 where it is opaque. What the camera looked
+/// through does not count among the passages.
 void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,
                  ProgramMemory& memory);
 
