@@ -203,6 +203,10 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
                         const Batch visible = scene.visibility(rays), zero(0.0f);
                         // Where no ray is, there is nothing to add.
                         Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
+                        if (!scene.has_transparency() && scene.media().is_empty()) {
+                            radiance += light;
+                            return;
+                        }
                         RayOf<Batch> seen = rays;
                         seen.far_m = select(visible > zero, rays.far_m, zero);
                         if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);

@@ -239,7 +239,7 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         if (!(max_component(path.throughput) > 0.0f)) continue;
         // What shines by its program tells how much when its own batch is shaded.
         if (!is_met || (bounce == work.settings.max_bounces && !shines_by_program)) continue;
-        if (way_of(i, arrival).only_shines()) continue;
+        if (scene.has_transparency() && straight.ways[i].only_shines()) continue;
         if (bounce >= first_roulette_bounce) {
             if (u_roulette[i] >= survival[i]) continue;
             path.throughput /= survival[i];
