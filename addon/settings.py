@@ -35,7 +35,13 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "threads": scene.render.threads,
         "filter_width_px": 2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it
         "transparent_film": scene.render.film_transparent,
+        "max_passages": _max_transparent_bounces(scene),
     }
+
+
+def _max_transparent_bounces(scene: bpy.types.Scene) -> int:
+    """Cycles' own setting, or what it would be where there is no Cycles."""
+    return scene.cycles.transparent_max_bounces if hasattr(scene, "cycles") else 8
 
 
 def render_settings(native: Any, scene: bpy.types.Scene, values: dict[str, Any]) -> Any:

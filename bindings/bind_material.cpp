@@ -3,6 +3,13 @@
 #include "bindings/register.h"
 
 namespace pivot::bindings {
+namespace {
+
+float opacity_beside(const Triple& transparency) {
+    return std::max(0.0f, 1.0f - mean_component(to_vec3(transparency)));
+}
+
+}  // namespace
 
 void register_material(py::module_& module) {
     py::class_<OwnedMaterial>(
@@ -13,14 +20,17 @@ void register_material(py::module_& module) {
         "dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal "
         "incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share "
         "of "
-        "the surface that these are, multiplied into them.\n\n"
+        "the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; "
+        "opacity: how much of the surface there is beside, which "
+        "tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of "
+        "1.\n\n"
         "lobes: up to MAX_LOBES beside these, each a kind and its parameters, as LOBES names them; what is not given "
         "is "
         "as here, or 1.")
         .def(py::init([](const Triple& diffuse, float alpha, const Triple& conductor_f0, const Triple& conductor_f90,
                          float conductor_weight, float dielectric_weight, float dielectric_ior,
                          const Triple& dielectric_tint, bool multiscatter, float weight, const Triple& emission,
-                         const LobeArguments& lobes) {
+                         const LobeArguments& lobes, const Triple& transparency, std::optional<float> opacity) {
                  OwnedMaterial material{{{.diffuse = to_vec3(diffuse),
                                           .alpha = alpha,
                                           .conductor_f0 = to_vec3(conductor_f0),
@@ -32,7 +42,8 @@ void register_material(py::module_& module) {
                                           .multiscatter = multiscatter ? 1.0f : 0.0f,
                                           .weight = weight},
                                          to_vec3(emission),
-                                         {}},
+                                         {},
+                                         {to_vec3(transparency), opacity.value_or(opacity_beside(transparency))}},
                                         {}};
                  set_lobes(material, lobes);
                  return material;
@@ -41,7 +52,8 @@ void register_material(py::module_& module) {
              py::arg("conductor_f90") = Triple{}, py::arg("conductor_weight") = 1.0f,
              py::arg("dielectric_weight") = 0.0f, py::arg("dielectric_ior") = 1.5f,
              py::arg("dielectric_tint") = Triple{1, 1, 1}, py::arg("multiscatter") = false, py::arg("weight") = 1.0f,
-             py::arg("emission") = Triple{}, py::arg("lobes") = LobeArguments{});
+             py::arg("emission") = Triple{}, py::arg("lobes") = LobeArguments{}, py::arg("transparency") = Triple{},
+             py::arg("opacity") = py::none());
     register_lobes(module);
 }
 

@@ -110,8 +110,8 @@ struct Numbers {
     float low, high;
 };
 
-/// Calls visit(name, Numbers) with each that the material has: the base's, "emission", and of its lobes
-/// "lobes.0.color".
+/// Calls visit(name, Numbers) with each that the material has: the base's, "emission", "transparency", "opacity", and
+/// of its lobes "lobes.0.color".
 template <class Visit>
 void for_each_number(const Material& material, const Visit& visit) {
     const auto visit_kind = [&]<class L>(const string& prefix, std::size_t first) {
@@ -123,6 +123,8 @@ void for_each_number(const Material& material, const Visit& visit) {
     visit_kind.template operator()<FurtherBase<float>>("", 0);
     constexpr float most = std::numeric_limits<float>::max();
     visit("emission", Numbers{emission_place, 3, -most, most});
+    visit("transparency", Numbers{transparency_place, 3, 0.0f, most});
+    visit("opacity", Numbers{transparency_place + 3, 1, 0.0f, most});
     for (std::size_t i = 0; i < max_lobes; ++i)
         for_each_lobe_kind<float>([&]<class L>(float kind) {
             if (material.lobes[i].kind != kind) return;

@@ -50,13 +50,10 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
             owner = displaced(displacement, owner)
             _report_displacement(owner)
         surface = _shader(output, owner)
-        if surface is not None and surface.normal is not None and surface.normal == owner.displaced_normal:
+        if surface.normal is not None and surface.normal == owner.displaced_normal:
             surface = replace(surface, normal_is_own=True)
     except RecursionError:
         owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is shown as grey")
-        return grey(owner.program)
-    if surface is None:
-        owner.reporter.warn(f"{owner.name}: transparency is not supported, it is shown as grey")
         return grey(owner.program)
     surface, exact = surface.within(MAX_LOBES)
     if not exact:
@@ -82,18 +79,17 @@ def light_emission(tree: bpy.types.NodeTree, owner: Owner) -> Value:
         return black
     _leave_out(output, owner)
     try:
-        surface = _shader(output, owner)
+        return _shader(output, owner).emission
     except RecursionError:
         owner.reporter.warn(f"{owner.name}: its nodes form a loop, it is black")
         return black
-    return black if surface is None else surface.emission
 
 
-def _shader(target: Socket, owner: Owner) -> Surface | None:
-    """The surface a shader input stands for; None for one that lets light through."""
+def _shader(target: Socket, owner: Owner) -> Surface:
+    """The surface a shader input stands for."""
     feed = source(target)
     if feed is None or not feed.socket.is_output:
-        return Surface.of(owner.program)
+        return Surface.of(owner.program, opacity=owner.program.number(0.0))
     evaluate = _SHADERS.get(feed.node.type)
     if evaluate is not None:
         _leave_out(feed, owner)
@@ -104,23 +100,19 @@ def _shader(target: Socket, owner: Owner) -> Surface | None:
     return Surface.of(owner.program, diffuse=mid_grey if tint is None else colour(tint, owner))
 
 
-def _mix(feed: Socket, owner: Owner) -> Surface | None:
+def _mix(feed: Socket, owner: Owner) -> Surface:
     factor = number(feed.input(0), owner).clamped()
     return _sum(feed, owner, 1.0 - factor, factor, feed.input(1), feed.input(2))
 
 
-def _add(feed: Socket, owner: Owner) -> Surface | None:
+def _add(feed: Socket, owner: Owner) -> Surface:
     one = owner.program.number(1.0)
     return _sum(feed, owner, one, one, feed.input(0), feed.input(1))
 
 
-def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket, b: Socket) -> Surface | None:
+def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket, b: Socket) -> Surface:
     pairs = ((weight_a, a), (weight_b, b))
-    parts = [(weight, _shader(shader, owner)) for weight, shader in pairs if not weight.is_always(0)]
-    opaque = [(weight, surface) for weight, surface in parts if surface is not None]
-    if len(opaque) < len(parts):  # beside transparency the other shader is opaque
-        return opaque[0][1] if opaque else None
-    scaled = [surface.scaled(weight) for weight, surface in opaque]
+    scaled = [_shader(shader, owner).scaled(weight) for weight, shader in pairs if not weight.is_always(0)]
     if len(scaled) == 1:
         return scaled[0]
     total, exact = added(*scaled)
@@ -192,8 +184,12 @@ def _boundary(feed: Socket, owner: Owner, **given: Value | bool) -> Surface:
     return Surface.of(owner.program, dielectrics=(dielectric,), normal=normal(feed, owner))
 
 
-def _transparent(feed: Socket, owner: Owner) -> None:
-    owner.warn(feed.node, "transparency is not supported, what it is mixed with is shown opaque")
+def _transparent(feed: Socket, owner: Owner) -> Surface:
+    return _let_through(colour(feed.input("Color"), owner).at_least(0.0))
+
+
+def _let_through(tint: Value) -> Surface:
+    return Surface.of(tint.program, transparency=tint.widened(), opacity=tint.program.number(0.0))
 
 
 def _emission(feed: Socket, owner: Owner) -> Surface:
@@ -214,7 +210,7 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
     glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
     opaque = (1.0 - metallic) * (1.0 - glass)
-    return Surface.of(
+    whole = Surface.of(
         owner.program,
         diffuse=base * opaque,
         alpha=_alpha(feed, owner),
@@ -230,6 +226,10 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
+    opacity = number(feed.input("Alpha"), owner).clamped()
+    if opacity.is_always(1):
+        return whole
+    return added(whole.scaled(opacity), _let_through(1.0 - opacity))[0]
 
 
 def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
@@ -325,7 +325,7 @@ def _leave_out(feed: Socket, owner: Owner) -> None:
             owner.warn(feed.node, f"{target.socket.name} is not supported, it is left out")
 
 
-_SHADERS: dict[str, Callable[[Socket, Owner], Surface | None]] = {
+_SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_TRANSLUCENT": _translucent,

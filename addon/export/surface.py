@@ -23,7 +23,8 @@ class Surface:
 
     The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
     are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
-    dielectrics: what of it is glass.
+    dielectrics: what of it is glass. transparency: the colour of light that goes straight on; opacity: how much of a
+    surface all else is.
     """
 
     diffuse: Value
@@ -37,6 +38,8 @@ class Surface:
     weight: Value
     emission: Value
     translucent: Value
+    transparency: Value
+    opacity: Value
     multiscatter: bool = False
     further: tuple[Surface, ...] = ()
     dielectrics: tuple[Dielectric, ...] = ()
@@ -61,6 +64,8 @@ class Surface:
             "weight": one,
             "emission": black,
             "translucent": black,
+            "transparency": black,
+            "opacity": one,
         }
         return Surface(**(defaults | given))
 
@@ -79,6 +84,8 @@ class Surface:
             weight=self.weight * weight,
             emission=self.emission * weight,
             translucent=self.translucent * weight,
+            transparency=self.transparency * weight,
+            opacity=self.opacity * weight,
             further=tuple(surface.scaled(weight) for surface in self.further),
             dielectrics=tuple(dielectric.scaled(weight) for dielectric in self.dielectrics),
         )
@@ -93,7 +100,7 @@ class Surface:
         """Those that reflect, each as a surface of nothing else."""
         if not self.diffuse.is_always(0) or self.gloss() > 0:
             black = self.program.colour((0, 0, 0))
-            yield replace(self, emission=black, translucent=black, further=(), dielectrics=())
+            yield replace(self, emission=black, translucent=black, transparency=black, further=(), dielectrics=())
         yield from self.further
 
     def within(self, lobes: int) -> tuple[Surface, bool]:
@@ -123,6 +130,8 @@ class Surface:
             lobes.append(("translucent", {"color": self.translucent}, {}))
         lobes += [dielectric.lobe() for dielectric in self.dielectrics]
         own = first._base_values() | {"emission": self.emission}
+        if not self.transparency.is_always(0):
+            own |= {"transparency": self.transparency, "opacity": self.opacity}
         material = core.Material(
             **_numbers(own),
             **first._base_settings(),
@@ -185,18 +194,22 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
         emission=a.emission + b.emission,
         translucent=a.translucent + b.translucent,
         dielectrics=as_few(a.dielectrics + b.dielectrics),
+        transparency=a.transparency + b.transparency,
+        opacity=a.opacity + b.opacity,
         normal=next((normal for normal in normals if normal is not None), None),
     )
     return _surface_of(bases, beside), len(normals) < 2 or normals[0] == normals[1]
 
 
 def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
-    """Bases, with the emission, the normal, the glass and what comes through of another surface."""
+    """Bases, with all else of another surface."""
     first, *further = bases or [Surface.of(beside.program)]
     return replace(
         first,
         emission=beside.emission,
         translucent=beside.translucent,
+        transparency=beside.transparency,
+        opacity=beside.opacity,
         normal=beside.normal,
         further=tuple(further),
         dielectrics=beside.dielectrics,

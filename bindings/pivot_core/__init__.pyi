@@ -207,7 +207,7 @@ class Material:
     """
     A Lambert lobe beneath one GGX lobe, further lobes, and emission; colours are linear RGB.
 
-    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them.
+    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; opacity: how much of the surface there is beside, which tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of 1.
 
     lobes: up to MAX_LOBES beside these, each a kind and its parameters, as LOBES names them; what is not given is as here, or 1.
     """
@@ -249,6 +249,10 @@ class Material:
                 ],
             ]
         ] = [],
+        transparency: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
+        opacity: typing.SupportsFloat | typing.SupportsIndex | None = None,
     ) -> None: ...
     def albedo(
         self,
@@ -667,6 +671,7 @@ class RenderSettings:
         virtual_lights: typing.SupportsInt | typing.SupportsIndex = 4096,
         virtual_light_method: str = "AUTO",
         denoising_passes: bool = False,
+        max_passages: typing.SupportsInt | typing.SupportsIndex = 8,
     ) -> None: ...
 
 class Session:

@@ -7,6 +7,7 @@
 #include "core/integrators/bump_share.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/lobe_points.h"
+#include "core/integrators/shown_surfaces.h"
 #include "core/integrators/specular_occlusion.h"
 #include "core/integrators/virtual_light_shading.h"
 #include "core/simd/pack.h"
@@ -203,46 +204,48 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Shado
     }
 }
 
-/// A hit surface, for the sample of this index.
+/// A hit surface, for the sample of this index, and what its light is worth there.
 struct HitSurface {
     std::size_t sample;
+    Rgb worth;
     RayHit hit;
     SurfacePoint point;
     Surface surface;
 };
 
-/// What has closed forms, and for which sample: first all bases, so that neighbours stay neighbours, then what further
+/// What has closed forms, and of which surface: first all bases, so that neighbours stay neighbours, then what further
 /// lobes are.
 struct Parts {
     std::vector<ShadingPoint> shading;
-    std::vector<std::size_t> sample;
+    std::vector<std::size_t> surface;
 };
 Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const HitSurface> hits) {
     Parts parts;
-    const auto add = [&](const HitSurface& of, const SurfacePoint& point, const Base& base) {
+    const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base) {
         parts.shading.push_back({point, base, {}});
-        if (settings.occlusion == Occlusion::bent_cone) parts.shading.back().bent_cone = scene.bent_cone(of.hit, point);
-        parts.sample.push_back(of.sample);
+        if (settings.occlusion == Occlusion::bent_cone)
+            parts.shading.back().bent_cone = scene.bent_cone(hits[of].hit, point);
+        parts.surface.push_back(of);
     };
-    for (const HitSurface& hit : hits) add(hit, hit.point, hit.surface);
-    for (const HitSurface& hit : hits)
-        for_each_lobe(hit.surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
+    for (std::size_t i = 0; i < hits.size(); ++i) add(i, hits[i].point, hits[i].surface);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
             if constexpr (L::has_closed_form)
-                add(hit, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
+                add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
         });
     return parts;
 }
 
 /// Adds what the parts reflect of light that bounced.
 void add_bounced(const Scene& scene, const RenderSettings& settings, const VirtualLights& bounced,
-                 std::uint32_t sample_index, const Parts& parts, std::span<const std::uint32_t> pixels,
-                 SharedReflections& shared, std::span<Gathered> light) {
+                 std::uint32_t sample_index, std::span<const HitSurface> hits, const Parts& parts,
+                 std::span<const std::uint32_t> pixels, SharedReflections& shared, std::span<Gathered> light) {
     std::vector<std::uint32_t> pixel_of;
-    for (const std::size_t sample : parts.sample) pixel_of.push_back(pixels[sample]);
+    for (const std::size_t of : parts.surface) pixel_of.push_back(pixels[hits[of].sample]);
     const auto reflections =
         shared.reflect(scene, settings, bounced, parts.shading, pixel_of, sample_index / bounced_samples_shared);
     for (std::size_t i = 0; i < reflections.size(); ++i)
-        add_virtual_lights(reflections[i], parts.shading[i].surface, true, light[parts.sample[i]]);
+        add_virtual_lights(reflections[i], parts.shading[i].surface, true, light[parts.surface[i]]);
 }
 
 /// Adds what a surface's lobes without closed forms reflect.
@@ -264,21 +267,26 @@ void add_lobe_points(const Scene& scene, const RenderSettings& settings, const A
     });
 }
 
-/// Appends the surfaces of a batch of arrivals, and tells the passes of them. samples: of each arrival.
-void see(const Scene& scene, std::span<const Arrival* const> arrivals, std::span<const std::size_t> sample_of,
+/// Appends the surfaces of a batch of those shown, and tells the passes of them. batch_of: their arrivals.
+void see(const Scene& scene, std::span<const Arrival* const> batch_of, std::span<const Shown> shown,
          ProgramMemory& memory, std::vector<HitSurface>& surfaces, std::span<Sample> samples) {
-    const ArrivalBatch batch = make_arrivals(scene, arrivals, 0, memory);
+    const ArrivalBatch batch = make_arrivals(scene, batch_of, 0, memory);
     const auto points = unpack<SurfacePointOf>(batch.point);
     SurfaceOf<Batch> surface = make_surface(batch.material, batch.point.wo_local);
     surface.bump = batch.bump;
     const auto seen = unpack<SurfaceOf>(surface);
     const auto materials = unpack<MaterialOf>(batch.material);
-    for (std::size_t i = 0; i < arrivals.size(); ++i) {
-        Sample& sample = samples[sample_of[i]];
-        sample.normal = points[i].frame.z;
-        sample.albedo = diffuse_color(seen[i]);
-        sample.emission = sample.radiance = materials[i].emission;
-        surfaces.push_back({sample_of[i], arrivals[i]->hit, points[i], seen[i]});
+    for (std::size_t i = 0; i < batch_of.size(); ++i) {
+        Sample& sample = samples[shown[i].sample];
+        const Rgb emitted = shown[i].worth * materials[i].emission;
+        sample.radiance += emitted;
+        sample.emission += emitted;
+        if (shown[i].is_told) {
+            sample.normal = points[i].frame.z;
+            sample.albedo = diffuse_color(seen[i]);
+        }
+        if (!shown[i].only_shines)
+            surfaces.push_back({shown[i].sample, shown[i].worth, shown[i].arrival.hit, points[i], seen[i]});
     }
 }
 
@@ -290,7 +298,6 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
     ProgramMemory memory;
-    std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the sample of each
     const ShadowPoints points(settings, sample_index);
     std::vector<FogLight> fog;  // of each sample, and what media let through; empty: there are none
     std::vector<Rgb> through;
@@ -305,61 +312,49 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         }
     }
     const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        Sample& sample = samples[i] = {};
-        if (hits[i]) {
-            arrivals.push_back({{.direction = camera_rays[i].direction,
-                                 .hit = *hits[i],
-                                 .material = scene.material_of(*hits[i]),
-                                 .footprint_m = spread * hits[i]->distance_m,
-                                 .ray_kind = camera_ray},
-                                i});
-        } else if (settings.transparent_film) {
-            sample.alpha = 0.0f;
-        } else {
-            sample.radiance =
-                world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0, memory.registers);
-        }
-    }
+    std::vector<Shown> shown = shown_surfaces(scene, settings, camera_rays, hits, spread, memory, samples);
     // A program runs for one material.
-    std::ranges::stable_sort(arrivals, {}, [&](const auto& a) {
-        return scene.shaders()[a.first.material].is_constant() ? 0 : a.first.material + 1;
+    std::ranges::stable_sort(shown, {}, [&](const Shown& s) {
+        return scene.shaders()[s.arrival.material].is_constant() ? 0 : s.arrival.material + 1;
     });
     std::vector<HitSurface> surfaces;
     std::vector<const Arrival*> ordered;
-    std::vector<std::size_t> order;
-    for (const auto& [arrival, sample] : arrivals) ordered.push_back(&arrival), order.push_back(sample);
+    for (const Shown& s : shown) ordered.push_back(&s.arrival);
     for (std::size_t first = 0; first < ordered.size();) {
         const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
         const std::size_t count = batch_count(scene, rest);
-        see(scene, rest.first(count), std::span<const std::size_t>(order).subspan(first, count), memory, surfaces,
-            samples);
+        see(scene, rest.first(count), std::span<const Shown>(shown).subspan(first, count), memory, surfaces, samples);
         first += count;
     }
     const Parts parts = parts_of(scene, settings, surfaces);
-    const auto& [shading, sample_of] = parts;
-    std::vector<Gathered> light(samples.size());
+    const auto& [shading, surface_of] = parts;
+    std::vector<Gathered> light(surfaces.size());
     for (std::size_t first = 0; first < shading.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, shading.size() - first);
         std::array<Gathered, batch_size> gathered{};
         shade_batch(scene, settings, points, lights, sample_index, std::span(shading).subspan(first, count),
                     std::span(gathered).first(count));
-        for (std::size_t i = 0; i < count; ++i) light[sample_of[first + i]].add(gathered[i]);
+        for (std::size_t i = 0; i < count; ++i) light[surface_of[first + i]].add(gathered[i]);
     }
     if (!lights.bounced.is_empty())
-        add_bounced(scene, settings, lights.bounced, sample_index, parts, pixels, shared, light);
-    for (const HitSurface& surface : surfaces)
-        if (surface.surface.has_lobes())
-            add_lobe_points(scene, settings, lights, points, surface, light[surface.sample]);
-    for (const HitSurface& surface : surfaces) {
-        Sample& sample = samples[surface.sample];
-        const Gathered& gathered = light[surface.sample];
-        sample.radiance += gathered.radiance;
-        sample.indirect = gathered.indirect;
-        sample.method = gathered.size > 0.0f ? gathered.method / gathered.size : Rgb(0.0f);
-        sample.error = gathered.error;
-        sample.shadow_variance = gathered.shadow_variance;
+        add_bounced(scene, settings, lights.bounced, sample_index, surfaces, parts, pixels, shared, light);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        if (surfaces[i].surface.has_lobes()) add_lobe_points(scene, settings, lights, points, surfaces[i], light[i]);
+    std::vector<float> size(samples.size(), 0.0f);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        Sample& sample = samples[surfaces[i].sample];
+        const Gathered& gathered = light[i];
+        const Rgb& worth = surfaces[i].worth;
+        const float weight = mean_component(worth);
+        sample.radiance += worth * gathered.radiance;
+        sample.indirect += worth * gathered.indirect;
+        sample.method += weight * gathered.method;
+        size[surfaces[i].sample] += weight * gathered.size;
+        sample.error += weight * gathered.error;
+        sample.shadow_variance += sqr(weight) * gathered.shadow_variance;
     }
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i].method = size[i] > 0.0f ? samples[i].method / size[i] : Rgb(0.0f);
     for (std::size_t i = 0; i < fog.size(); ++i) {
         Sample& sample = samples[i];
         const float left = mean_component(through[i]);

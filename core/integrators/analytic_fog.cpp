@@ -82,7 +82,7 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
             rays.add({position, point->wi, 0.0f, point->distance_m * shadow_reach}, true, {&share, weight, 0.0f});
         }
     };
-    ask_points(scene, points.first_part(), {&share, 1}, add_points);
+    ask_points(scene, points.max_passages(), points.first_part(), {&share, 1}, add_points);
     return share.diffuse;
 }
 
@@ -161,7 +161,7 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, co
                 if (table.sum() > 0.0f) share = seen_share(scene, light, lamp, ray, table, points);
             }
             const float size = mean_component(abs(whole)) * share.value();
-            result.scattered += whole * share.value();
+            result.scattered += whole * share.color();
             result.error += size * (error + error_over_lamp);
             result.shadow_variance += sqr(mean_component(abs(whole))) * share.variance();
         }

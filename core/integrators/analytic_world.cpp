@@ -70,24 +70,27 @@ WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& sc
     MediaRay media(scene.media());
     ShadowRays::OnSeen on_seen;
     if (!scene.media().is_empty())
-        on_seen = [&](const Ray& ray, const ShadowRays::Probe& probe) {
+        on_seen = [&](const Ray& ray, const ShadowRays::Probe& probe, const Rgb& left) {
             media.follow(ray, nullptr);
-            left_diffuse += probe.diffuse * media.through();
-            left_glossy += probe.glossy * media.through();
+            left_diffuse += probe.diffuse * left * media.through();
+            left_glossy += probe.glossy * left * media.through();
         };
-    ask_points(scene, 1.0f, {&shares, 1}, add_points, on_seen);
+    ask_points(scene, points.max_passages(), 1.0f, {&shares, 1}, add_points, on_seen);
     WorldReflection seen = whole;
     if (on_seen) {
-        if (shares.diffuse.seen > 0.0f) seen.diffuse *= left_diffuse / shares.diffuse.seen;
-        if (shares.glossy.seen > 0.0f) seen.glossy *= left_glossy / shares.glossy.seen;
+        const auto of_seen = [](const Rgb& left, const Rgb& seen_color) {
+            return left / max(seen_color, Rgb(tiny<float>));
+        };
+        if (shares.diffuse.seen > 0.0f) seen.diffuse *= of_seen(left_diffuse, shares.diffuse.seen_color);
+        if (shares.glossy.seen > 0.0f) seen.glossy *= of_seen(left_glossy, shares.glossy.seen_color);
     }
     const auto deviation = [&](const VisibleShare& share) {
         return std::sqrt(std::max(share.variance(), points.missed_variance(share)));
     };
     seen.shadow_variance =
         sqr(size_of(seen.diffuse) * deviation(shares.diffuse) + size_of(seen.glossy) * deviation(shares.glossy));
-    seen.diffuse *= shares.diffuse.value();
-    seen.glossy *= shares.glossy.value();
+    seen.diffuse *= shares.diffuse.color();
+    seen.glossy *= shares.glossy.color();
     return seen;
 }
 

@@ -117,7 +117,7 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
             add(place_on(light_, of_light.point(PointSet::light_diffuse, k)), false);
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, of_light.first_part(), lanes, add_points);
+    ask_points(scene, points.max_passages(), of_light.first_part(), lanes, add_points);
     return seen_in_part(reflection_, lanes, points);
 }
 

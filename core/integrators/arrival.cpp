@@ -6,7 +6,7 @@ namespace pivot {
 namespace {
 
 MaterialOf<Batch> pack_materials(const std::array<const Material*, batch_size>& materials) {
-    constexpr std::size_t without_lobes = all_numbers<MaterialOf> - max_lobes * all_numbers<LobeOf>;
+    constexpr std::size_t without_lobes = lobes_place;
     const auto has_lobes = [](const Material* material) { return material->lobes[0].kind > 0.0f; };
     if (std::any_of(materials.begin(), materials.end(), has_lobes)) return pack<MaterialOf>(materials);
     return pack<MaterialOf, without_lobes>(materials);
@@ -26,47 +26,85 @@ std::size_t batch_count(const Scene& scene, std::span<const Arrival* const> arri
     return count;
 }
 
-ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> arrivals, std::uint32_t bounce,
-                           ProgramMemory& memory) {
+namespace {
+
+/// Arrivals side by side, where they are. Lanes past the last repeat it.
+struct Arrived {
+    std::array<const Arrival*, batch_size> lanes;
+    ArrivalOf<Batch> arrivals;
+    HitTriangleOf<Batch> corners;
+    SurfacePointOf<Batch> point;
+};
+
+Arrived find_places(const Scene& scene, std::span<const Arrival* const> arrivals) {
     std::array<const Arrival*, batch_size> lanes;
     std::array<HitTriangleOf<float>, batch_size> triangles;
     std::array<const HitTriangleOf<float>*, batch_size> triangle_lanes;
-    std::array<const Material*, batch_size> materials;
     for (std::size_t i = 0; i < batch_size; ++i) {
         const std::size_t place = std::min(i, arrivals.size() - 1);
         lanes[i] = arrivals[place];
         if (i == place) triangles[i] = scene.hit_triangle(lanes[i]->hit);
         triangle_lanes[i] = &triangles[place];
-        materials[i] = &scene.shaders()[lanes[i]->material].constants;
     }
     const ArrivalOf<Batch> arrived = pack<ArrivalOf>(lanes);
     const HitTriangleOf<Batch> corners = pack<HitTriangleOf>(triangle_lanes);
-    const Vec3b wo = -arrived.direction;
-    const SurfacePointOf<Batch> point = surface_point(corners, arrived.hit.barycentric, wo);
-    const Shader& shader = scene.shaders()[lanes[0]->material];
-    const BatchMask is_behind = point.front < Batch(0.0f);
-    if (shader.is_constant()) {
-        ArrivalBatch batch{point, pack_materials(materials)};
-        turn_over(batch.material, is_behind);
-        return batch;
-    }
+    return {lanes, arrived, corners, surface_point(corners, arrived.hit.barycentric, -arrived.direction)};
+}
+
+void run(const Scene& scene, const Program& program, const Arrived& at, std::uint32_t bounce, ProgramMemory& memory) {
+    const ArrivalOf<Batch>& arrived = at.arrivals;
     PlaceLanes place_lanes{.meshes = {},
                            .objects = {},
                            .triangles = {},
-                           .corners = corners,
-                           .wo = wo,
-                           .front = point.front,
+                           .corners = at.corners,
+                           .wo = -arrived.direction,
+                           .front = at.point.front,
                            .ray_length_m = arrived.hit.distance_m,
                            .ray_kind = arrived.ray_kind,
                            .bounce = WordBatch(bounce),
                            .camera = &scene.camera_facts(),
                            .footprint_m = arrived.footprint_m};
     for (std::size_t i = 0; i < batch_size; ++i) {
-        place_lanes.meshes[i] = &scene.mesh_of(lanes[i]->hit);
-        place_lanes.objects[i] = &scene.facts_of(lanes[i]->hit);
-        place_lanes.triangles[i] = lanes[i]->hit.triangle;
+        place_lanes.meshes[i] = &scene.mesh_of(at.lanes[i]->hit);
+        place_lanes.objects[i] = &scene.facts_of(at.lanes[i]->hit);
+        place_lanes.triangles[i] = at.lanes[i]->hit.triangle;
     }
-    run_on_surfaces(shader.program, place_lanes, point, arrived.hit.barycentric, memory);
+    run_on_surfaces(program, place_lanes, at.point, arrived.hit.barycentric, memory);
+}
+
+}  // namespace
+
+TransparencyOf<Batch> transparency_of(const Scene& scene, std::span<const Arrival* const> arrivals,
+                                      std::uint32_t bounce, ProgramMemory& memory) {
+    const Shader& shader = scene.shaders()[arrivals[0]->material];
+    if (shader.is_constant()) {
+        std::array<const Transparency*, batch_size> lanes;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const Arrival& arrival = *arrivals[std::min(i, arrivals.size() - 1)];
+            lanes[i] = &scene.shaders()[arrival.material].constants.transparency;
+        }
+        return pack<TransparencyOf>(lanes);
+    }
+    if (shader.has_varying_transparency())
+        run(scene, shader.transparency, find_places(scene, arrivals), bounce, memory);
+    return transparency_at(shader, memory.registers);
+}
+
+ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> arrivals, std::uint32_t bounce,
+                           ProgramMemory& memory) {
+    const Arrived at = find_places(scene, arrivals);
+    const Shader& shader = scene.shaders()[arrivals[0]->material];
+    const BatchMask is_behind = at.point.front < Batch(0.0f);
+    if (shader.is_constant()) {
+        std::array<const Material*, batch_size> materials;
+        for (std::size_t i = 0; i < batch_size; ++i) materials[i] = &scene.shaders()[at.lanes[i]->material].constants;
+        ArrivalBatch batch{at.point, pack_materials(materials)};
+        turn_over(batch.material, is_behind);
+        return batch;
+    }
+    run(scene, shader.program, at, bounce, memory);
+    const SurfacePointOf<Batch>& point = at.point;
+    const Vec3b wo = -at.arrivals.direction;
     ArrivalBatch batch{point, material_at(shader, memory.registers)};
     turn_over(batch.material, is_behind);
     const auto unit = [&](const std::array<std::uint32_t, 3>& registers, const Vec3b& otherwise) {

@@ -31,6 +31,10 @@ struct ArrivalBatch {
 /// How many of the first arrivals may share a batch: a program runs for one material.
 std::size_t batch_count(const Scene& scene, std::span<const Arrival* const> arrivals);
 
+/// What surfaces let through where arrivals meet them: as many as batch_count allows, at least one.
+TransparencyOf<Batch> transparency_of(const Scene& scene, std::span<const Arrival* const> arrivals,
+                                      std::uint32_t bounce, ProgramMemory& memory);
+
 /// As many arrivals as batch_count allows, at least one.
 ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> arrivals, std::uint32_t bounce,
                            ProgramMemory& memory);

@@ -195,16 +195,22 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
 }  // namespace
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory) {
+                   const VertexLights& lights, SharedLamps& shared_lamps, const ShadowPath& shadow_path,
+                   ProgramMemory& memory) {
     Vec3b radiance(Batch(0.0f));
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
                         const Batch visible = scene.visibility(rays), zero(0.0f);
                         // Where no ray is, there is nothing to add.
                         Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
+                        if (!scene.has_transparency() && scene.media().is_empty()) {
+                            radiance += light;
+                            return;
+                        }
+                        RayOf<Batch> seen = rays;
+                        seen.far_m = select(visible > zero, rays.far_m, zero);
+                        if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);
                         if (!scene.media().is_empty()) {
-                            RayOf<Batch> seen = rays;
-                            seen.far_m = select(visible > zero, rays.far_m, zero);
                             light = light * transmittance(scene.media(), seen,
                                                           stream_seed(vertices.sampler, plan.dimensions.base));
                         }

@@ -3,6 +3,7 @@
 
 #include "core/integrators/arrival.h"
 #include "core/integrators/light_lanes.h"
+#include "core/integrators/passage.h"
 #include "core/integrators/settings.h"
 #include "core/integrators/vertex_lights.h"
 
@@ -34,7 +35,8 @@ class SharedLamps {
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                   const VertexLights& lights, SharedLamps& shared, ProgramMemory& memory);
+                   const VertexLights& lights, SharedLamps& shared, const ShadowPath& shadow_path,
+                   ProgramMemory& memory);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,

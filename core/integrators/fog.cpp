@@ -16,8 +16,9 @@ Rgb Fog::transmittance(const Ray& ray, std::uint32_t sample, std::uint32_t dimen
     return shadow_ray_.through();
 }
 
-Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path) {
-    RandomStream stream{stream_seed(work_.samplers[path.sample], FogDimensions(bounce).collision())};
+Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path, std::uint32_t part) {
+    part_ = part;
+    RandomStream stream{stream_seed(work_.samplers[path.sample], FogDimensions(bounce, part_).collision())};
     ray_.follow(ray, &stream);
     if (ray_.size() == 0) return Rgb(1.0f);
     if (const Rgb emitted = ray_.emitted(); max_component(abs(emitted)) > 0.0f) {
@@ -32,6 +33,25 @@ Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path) {
     return sample_collision(bounce, path, stream);
 }
 
+Rgb Fog::cross(const Ray& ray, const WayOn& way, std::uint32_t bounce, const Path& path) {
+    Rgb left(1.0f);
+    float from_m = 0.0f;
+    std::uint32_t part = 0;
+    const auto cross_to = [&](float distance_m) {
+        Path at = path;
+        at.throughput *= left;
+        at.arrival.footprint_m += path.spread * from_m;
+        left *= cross(part_of(ray, from_m, distance_m), bounce, at, part++);
+        from_m = distance_m;
+    };
+    for (const Passage& passage : way.passages) {
+        cross_to(passage.hit.distance_m);
+        left *= passage.ends() ? Rgb(passage.shown) : passage.passed;
+    }
+    if (way.passages.empty() || !way.hit) cross_to(way.hit ? way.hit->distance_m : ray.far_m);
+    return left;
+}
+
 Rgb Fog::sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream) {
     std::optional<MediaRay::Collided> collided;
     Rgb through = ray_.through();
@@ -43,9 +63,9 @@ Rgb Fog::sample_collision(std::uint32_t bounce, const Path& path, RandomStream& 
         if (bounce > 0) through = throughput / max(path.throughput, Rgb(tiny<float>));
     }
     const Sampler& sampler = work_.samplers[path.sample];
-    const Vec2f u_survival = sampler.point(FogDimensions(bounce).survival());
+    const Vec2f u_survival = sampler.point(FogDimensions(bounce, part_).survival());
     if (collided) {
-        const ScatterLobe& lobe = mix_.choose(sampler.point(FogDimensions(bounce).lobe()).x);
+        const ScatterLobe& lobe = mix_.choose(sampler.point(FogDimensions(bounce, part_).lobe()).x);
         Rgb throughput = collided->throughput * (lobe.sigma_s / max(mix_.sigma_s, Rgb(tiny<float>))) *
                          (mix_.total_weight / MediumMix::weight(lobe));
         // Beside the path that goes on, this one goes on as often as it is worth it, or, of later bounces, as others
@@ -71,7 +91,7 @@ Rgb Fog::sample_collision(std::uint32_t bounce, const Path& path, RandomStream& 
 
 Rgb Fog::sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided) {
     const Rgb through = ray_.through();
-    const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce).collision());
+    const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce, part_).collision());
     const float sum = path.throughput.x + path.throughput.y + path.throughput.z;
     if (!(sum > 0.0f)) return through;
     const Rgb share = path.throughput / sum;  // how often each colour chooses
@@ -181,25 +201,36 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
     }
     std::vector<std::optional<RayHit>> hits(rays.size());
     work_.scene.intersect(rays, visible_to_light, hits);
+    std::vector<Passage> passages;
+    if (work_.scene.has_transparency()) {
+        std::vector<StraightRay> straight;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const float spread = vertices[i].spread + spread_of_sample(work_.settings, pdf_omega[i]);
+            straight.push_back({rays[i], hits[i], diffuse_ray, vertices[i].footprint_m, spread});
+        }
+        const auto sample_of = [&](std::size_t i) { return vertices[i].sample; };
+        passages = find_passages(work_.scene, work_.settings.max_passages, straight, visible_to_light, bounce + 1,
+                                 chosen_by(work_.samplers, bounce + 1, never_two, sample_of), work_.memory);
+    }
+    const std::vector<WayOn> ways = ways_on(passages, hits);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const FogVertex& vertex = vertices[i];
-        Ray ray = rays[i];
-        if (hits[i]) ray.far_m = hits[i]->distance_m;
-        Path path{.arrival = {.direction = ray.direction,
-                              .hit = hits[i].value_or(RayHit{}),
+        const std::optional<RayHit>& hit = ways[i].hit;
+        Path path{.arrival = {.direction = rays[i].direction,
+                              .hit = hit.value_or(RayHit{}),
                               .material = 0,
                               .footprint_m = vertex.footprint_m,
-                              .ray_kind = diffuse_ray},
+                              .ray_kind = ways[i].ray_kind(diffuse_ray)},
                   .throughput = vertex.throughput,
                   .spread = vertex.spread + spread_of_sample(work_.settings, pdf_omega[i]),
                   .emission_weight = 1.0f,
                   .sample = vertex.sample};
-        path.throughput *= cross(ray, bounce + 1, path);
+        path.throughput *= cross(rays[i], ways[i], bounce + 1, path);
         if (!(max_component(path.throughput) > 0.0f)) continue;
-        add_light(bounce, vertex.sample, path.throughput * shining_met(vertex, bounce, ray, hits[i], pdf_omega[i]));
-        if (!hits[i]) continue;
-        path.arrival.material = work_.scene.material_of(*hits[i]);
-        path.arrival.footprint_m += path.spread * ray.far_m;
+        add_light(bounce, vertex.sample, path.throughput * shining_met(vertex, bounce, rays[i], hit, pdf_omega[i]));
+        if (!hit || ways[i].only_shines()) continue;
+        path.arrival.material = work_.scene.material_of(*hit);
+        path.arrival.footprint_m += path.spread * hit->distance_m;
         const bool shines_by_program = work_.scene.shaders()[path.arrival.material].has_varying_emission();
         if (bounce >= work_.settings.max_bounces && !shines_by_program) continue;
         next.push_back(path);
@@ -216,13 +247,13 @@ void Fog::add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light
 void Fog::finish() {
     std::vector<Ray> rays;
     for (const Shadow& shadow : shadows_) rays.push_back(shadow.ray);
-    std::vector<std::uint8_t> hidden(rays.size());
-    work_.scene.occluded(rays, hidden);
+    std::vector<Rgb> left(rays.size());
+    light_along(work_.scene, work_.settings.max_passages, rays, left, work_.memory);
     for (std::size_t i = 0; i < shadows_.size(); ++i) {
         const Shadow& shadow = shadows_[i];
-        if (!hidden[i])
+        if (max_component(left[i]) > 0.0f)
             add_light(shadow.bounce, shadow.sample,
-                      shadow.light * transmittance(shadow.ray, shadow.sample, shadow.dimension));
+                      shadow.light * left[i] * transmittance(shadow.ray, shadow.sample, shadow.dimension));
     }
     shadows_.clear();
 }

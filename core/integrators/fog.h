@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/integrators/fog_lamp.h"
+#include "core/integrators/passage.h"
 #include "core/integrators/path.h"
 #include "core/integrators/scatter_table.h"
 
@@ -18,11 +19,12 @@ struct FogVertex {
     std::uint32_t sample;
 };
 
-/// The sampler's dimensions that media take of a bounce, past those of surfaces.
+/// The sampler's dimensions that media take of a bounce, past those of surfaces. part: of a ray that passes surfaces.
 struct FogDimensions {
     std::uint32_t base;
 
-    explicit FogDimensions(std::uint32_t bounce) : base((1u << 16) + bounce * (8 + 3 * max_lamp_samples)) {}
+    explicit FogDimensions(std::uint32_t bounce, std::uint32_t part = 0)
+        : base((1u << 16) + (part << 20) + bounce * (8 + 3 * max_lamp_samples)) {}
 
     std::uint32_t collision() const { return base; }
     std::uint32_t lobe() const { return base + 1; }
@@ -46,8 +48,11 @@ class Fog {
 
     /// Adds what a path brings of the media along a ray, up to a surface or to no end, and returns what it is worth
     /// there: 0 where it goes on within the media alone. bounce: of what comes next. path: its throughput, sample and
-    /// footprint at the ray's origin.
-    Rgb cross(const Ray& ray, std::uint32_t bounce, const Path& path);
+    /// footprint at the ray's origin. part: of a ray that goes straight on behind surfaces, which one.
+    Rgb cross(const Ray& ray, std::uint32_t bounce, const Path& path, std::uint32_t part = 0);
+
+    /// The same along a way straight on through surfaces; of these too, what the path is worth behind them.
+    Rgb cross(const Ray& ray, const WayOn& way, std::uint32_t bounce, const Path& path);
 
     /// What the media leave of light along a ray of a sample's. dimension: apart for each ray.
     Rgb transmittance(const Ray& ray, std::uint32_t sample, std::uint32_t dimension);
@@ -96,7 +101,7 @@ class Fog {
     void add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light);
 
     const Work& work_;
-    std::uint32_t fog_sample_;
+    std::uint32_t fog_sample_, part_ = 0;
     MediaRay ray_, shadow_ray_;
     MediumMix mix_;
     std::vector<Candidate> candidates_;

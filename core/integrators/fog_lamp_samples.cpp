@@ -61,7 +61,7 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     float total = 0.0f;
     for (const Candidate& candidate : candidates) total += candidate.table.sum();
     const Sampler& sampler = work_.samplers[path.sample];
-    const std::uint32_t dimension = FogDimensions(bounce).lamp(place);
+    const std::uint32_t dimension = FogDimensions(bounce, part_).lamp(place);
     const Vec2f u = sampler.point(dimension), u_light = sampler.point(dimension + 1);
     // Evenly spread along the ray, so that what hides a part of it hides the same part of them.
     const LightSampling strategy = work_.settings.light_sampling;
@@ -121,9 +121,15 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
                             .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero)};
     const Batch seen = select(is_usable, work_.scene.visibility(rays) * eval(phase, direction, wi) / pdf, zero);
     if (!any(seen > zero)) return;
-    const Vec3b left =
+    Vec3b left =
         transmittance_over(mix_.sigma_t, at.distance_m - Batch(interval.near_m)) *
         pivot::transmittance(work_.scene.media(), rays, WordBatch(stream_seed(sampler, dimension)) + WordBatch(first));
+    if (work_.scene.has_transparency()) {
+        RayOf<Batch> open = rays;
+        open.far_m = select(seen > zero, rays.far_m, zero);
+        const ShadowPath shadow_path{work_.settings.max_passages, bounce, WordBatch(camera_ray)};
+        left = left * light_through(work_.scene, open, shadow_path, work_.memory);
+    }
     const Vec3b light = select(seen > zero, left * lamp.radiance(wi) * seen, Vec3b(zero));
     const auto sum = [](const Batch& batch) {
         const Lanes lanes = store(batch);
@@ -198,7 +204,7 @@ void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
         return;
     }
     const std::uint32_t count = bounce == 0 ? max_lamp_samples : 1;
-    const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce).lamp_choice());
+    const Vec2f u = work_.samplers[path.sample].point(FogDimensions(bounce, part_).lamp_choice());
     for (std::uint32_t k = 0; k < count; ++k) {
         const auto [lamp, probability] = choose_lamp((static_cast<float>(k) + u.x) / static_cast<float>(count),
                                                      wrap(u.y + 0.618034f * static_cast<float>(k)));

@@ -56,23 +56,25 @@ struct Seen {
     float variance() const { return sqr(share.all) * share.variance(); }
 };
 
-Seen look(const Scene& scene, const SurfacePoint& point, std::span<const WeightedPoint> all, bool traces_rays) {
+Seen look(const Scene& scene, std::uint32_t max_passages, const SurfacePoint& point, std::span<const WeightedPoint> all,
+          bool traces_rays) {
     std::vector<Ray> rays;
     for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
-    std::vector<std::uint8_t> occluded(rays.size(), 0);
-    if (traces_rays) scene.occluded(rays, occluded);
+    std::vector<Rgb> open(rays.size(), Rgb(1.0f));
+    ProgramMemory memory;
+    if (traces_rays) light_along(scene, max_passages, rays, open, memory);
     Seen result;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!occluded[i]) result.radiance += all[i].value;
-        result.share.add(mean_component(all[i].value), !occluded[i]);
+        result.radiance += all[i].value * open[i];
+        result.share.add(mean_component(all[i].value), open[i]);
     }
     if (scene.media().is_empty()) return result;
     MediaRay ray(scene.media());
     Rgb left(0.0f);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (occluded[i]) continue;
+        if (!(max_component(open[i]) > 0.0f)) continue;
         ray.follow(rays[i], nullptr);
-        left += all[i].value * ray.through();
+        left += all[i].value * open[i] * ray.through();
     }
     for (int c = 0; c < 3; ++c)
         if (result.radiance[c] > 0.0f) result.through[c] = left[c] / result.radiance[c];
@@ -109,7 +111,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         for (WeightedPoint& p : all) p.value /= n;
         if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
     }
-    const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
+    const Seen seen = look(scene, settings.max_passages, point, all, settings.occlusion == Occlusion::ray_traced);
     result.radiance = seen.radiance * seen.through;
     result.shadow_variance = seen.variance();
     return result;
@@ -128,10 +130,10 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
         if (pdf > 0.0f && point.faces(wi))
             all.push_back({wi, std::numeric_limits<float>::infinity(), eval(lobe, wi_local) / pdf});
     }
-    const Seen seen = look(scene, point, all, settings.occlusion == Occlusion::ray_traced);
+    const Seen seen = look(scene, settings.max_passages, point, all, settings.occlusion == Occlusion::ray_traced);
     if (!(seen.share.all > 0.0f)) return {};
     const Rgb light = scene.world() * albedo;
-    return {light * seen.through * seen.share.value(), error_of_albedo,
+    return {light * seen.through * seen.share.color(), error_of_albedo,
             sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance(seen.share))};
 }
 

@@ -5,6 +5,7 @@
 #include "core/integrators/direct_light.h"
 #include "core/integrators/fog.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/straight_paths.h"
 
 namespace pivot {
 namespace {
@@ -30,9 +31,10 @@ float bsdf_weight(const Light& light, LightSampling strategy, std::uint32_t boun
     return balance(bsdf_pdf_omega, expected_samples * sampler.pdf_omega(place));  // 0: BSDF samples are alone
 }
 
-/// What a BSDF sample that reaches distance_m meets of the lamps that its vertex sampled.
+/// What a BSDF sample meets of the lamps that its vertex sampled on its way on.
 Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const SharedLamp> lamps, const Vertex& vertex,
-              const Vec3f& wi, float bsdf_pdf_omega, float distance_m, std::uint32_t sample) {
+              const Vec3f& wi, float bsdf_pdf_omega, const WayOn& way, std::uint32_t sample) {
+    const float distance_m = way.hit ? way.hit->distance_m : std::numeric_limits<float>::infinity();
     Rgb radiance(0.0f);
     for (const auto& [index, expected] : lamps) {
         const Light& lamp = work.scene.light(index);
@@ -42,6 +44,7 @@ Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const 
         Rgb light = place->radiance *
                     (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
                      expected);
+        if (!way.passages.empty()) light *= way.worth_from(place->distance_m);
         if (fog)
             light *=
                 fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
@@ -119,6 +122,7 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
         const Rgb emitted = batch.paths[i].throughput * at(emission, i);
         sample.radiance += emitted;
         sample.emission += emitted;
+        if (!(batch.paths[i].emission_weight > 0.0f)) continue;
         sample.normal = at(normal, i);
         sample.albedo = at(albedo, i);
         if (work.settings.denoising_passes) sample.denoising_albedo = at(all_albedo, i);
@@ -169,14 +173,21 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& batch, const Scattered& scattered,
             const VertexLights& lights, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
-    const RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
+    RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
+    WordBatch ray_kind = scattered.ray_kind | (batch.lanes.arrival.ray_kind & WordBatch(~ray_kinds));
     const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
+    BatchWays straight;
+    if (scene.has_transparency()) straight = go_on(work, bounce, batch.paths, scattered.rays, spread, hit, ray_kind);
+    const auto way_of = [&](std::size_t i, const Arrival& arrival) {
+        if (!straight.ways.empty()) return straight.ways[i];
+        return WayOn{{}, arrival.hit.instance == no_instance ? std::nullopt : std::optional(arrival.hit)};
+    };
     std::array<Path, batch_size> paths =
         unpack<PathOf>({.arrival = {.direction = scattered.rays.direction,
                                     .hit = hit,
                                     .material = batch.lanes.arrival.material,
                                     .footprint_m = batch.lanes.arrival.footprint_m + spread * hit.distance_m,
-                                    .ray_kind = scattered.ray_kind},
+                                    .ray_kind = ray_kind},
                         .throughput = scattered.throughput,
                         .spread = spread,
                         .emission_weight = Batch(1.0f),
@@ -185,21 +196,19 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
     Vec3b sky(Batch(0.0f));
     if (scene.has_world() && any(is_lost))
         sky =
-            select(is_lost,
-                   world_met(work, scattered.rays.direction, scattered.pdf_omega, scattered.ray_kind, bounce + 1), sky);
+            select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
-    std::array<Rgb, batch_size> left, lamps;  // what the media leave on the way, and of lamps on it
-    if (fog) {
+    const bool is_weakened = fog || scene.has_transparency();
+    std::array<Rgb, batch_size> left, lamps;  // what is left on the way, and of lamps on it, where it is weakened
+    if (is_weakened) {
         const std::array<Ray, batch_size> rays = unpack<RayOf>(scattered.rays);
         for (std::size_t i = 0; i < batch_size; ++i) {
             left[i] = Rgb(1.0f), lamps[i] = Rgb(0.0f);
             if (i >= batch.paths.size() || !goes_on[i]) continue;
-            Ray ray = rays[i];
-            ray.far_m = paths[i].arrival.hit.instance == no_instance ? std::numeric_limits<float>::infinity()
-                                                                     : paths[i].arrival.hit.distance_m;
             Path before = paths[i];
             before.arrival.footprint_m = store(batch.lanes.arrival.footprint_m)[i];
-            left[i] = fog->cross(ray, bounce + 1, before);
+            const WayOn way = way_of(i, paths[i].arrival);
+            left[i] = fog ? fog->cross(rays[i], way, bounce + 1, before) : way.worth();
             paths[i].throughput *= left[i];
         }
     }
@@ -217,9 +226,9 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         const bool is_met = arrival.hit.instance != no_instance;
         Rgb light(0.0f);
         if (!shared.at(i).empty())
-            (fog ? lamps[i] : light) =
+            (is_weakened ? lamps[i] : light) =
                 lamps_met(work, fog, bounce, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
-                          is_met ? arrival.hit.distance_m : std::numeric_limits<float>::infinity(), path.sample);
+                          way_of(i, arrival), path.sample);
         bool shines_by_program = false;
         if (is_met) {
             arrival.material = scene.material_of(arrival.hit);
@@ -235,6 +244,7 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         if (!(max_component(path.throughput) > 0.0f)) continue;
         // What shines by its program tells how much when its own batch is shaded.
         if (!is_met || (bounce == work.settings.max_bounces && !shines_by_program)) continue;
+        if (scene.has_transparency() && straight.ways[i].only_shines()) continue;
         if (bounce >= first_roulette_bounce) {
             if (u_roulette[i] >= survival[i]) continue;
             path.throughput /= survival[i];
@@ -242,7 +252,7 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         next.push_back(path);
     }
     Vec3b light = sky + Vec3b(load(r), load(g), load(b));
-    if (fog)
+    if (is_weakened)
         light = light * gather_vector([&](std::size_t i) { return left[i]; }) +
                 gather_vector([&](std::size_t i) { return lamps[i]; });
     add_light(work, bounce, batch, select(scattered.goes_on, scattered.throughput * light, Vec3b(Batch(0.0f))));
@@ -261,9 +271,10 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     if (bounce > work.settings.max_bounces) return count;
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
+    const ShadowPath shadow_path{work.settings.max_passages, bounce, batch.lanes.arrival.ray_kind};
     add_light(work, bounce, batch,
               batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
-                                                    lights, shared, work.memory));
+                                                    lights, shared, shadow_path, work.memory));
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
     if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
@@ -273,41 +284,6 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     const Scattered scattered = scatter(plan, batch, is_wanted);
     if (any(scattered.goes_on)) follow(work, fog, bounce, batch, scattered, lights, shared, next);
     return count;
-}
-
-/// The camera's rays; those that meet nothing end here.
-void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, Paths& paths) {
-    std::vector<std::optional<RayHit>> hits(camera_rays.size());
-    work.scene.intersect(camera_rays, visible_to_camera, hits);
-    const float spread = work.scene.camera().pixel_spread() * part_of_pixel(work.settings);
-    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
-        Sample& sample = work.samples[i];
-        Path path{.arrival = {.direction = camera_rays[i].direction,
-                              .hit = hits[i].value_or(RayHit{}),
-                              .material = 0,
-                              .footprint_m = 0.0f,
-                              .ray_kind = camera_ray},
-                  .throughput = Rgb(1.0f),
-                  .spread = spread,
-                  .emission_weight = 1.0f,
-                  .sample = static_cast<std::uint32_t>(i)};
-        if (fog) {
-            Ray ray = camera_rays[i];
-            if (hits[i]) ray.far_m = hits[i]->distance_m;
-            path.throughput = fog->cross(ray, 0, path);
-        }
-        if (hits[i]) {
-            path.arrival.material = work.scene.material_of(*hits[i]);
-            path.arrival.footprint_m = spread * hits[i]->distance_m;
-            paths.push_back(path);
-        } else if (work.settings.transparent_film) {
-            sample.alpha = 0.0f;
-            if (fog) sample.alpha = 1.0f - mean_component(path.throughput);
-        } else {
-            sample.radiance += path.throughput * world_radiance(work.scene.world_view(), camera_rays[i].direction,
-                                                                camera_ray, 0, work.memory.registers);
-        }
-    }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct PathOf {
     ArrivalOf<T> arrival;
     Vec3<T> throughput;  ///< up to the surface
     T spread;            ///< how much the footprint grows on the way, m for each m
-    T emission_weight;   ///< of what the surface's program emits, beside light samples
+    T emission_weight;   ///< of what the surface's program emits, beside light samples; first hits: 1 if passes tell
     Word<T> sample;      ///< of the caller's
 };
 

@@ -34,35 +34,35 @@ void ShadowRays::add(const Ray& ray, bool is_faced, const Probe& probe) {
         rays_.push_back(ray);
         probes_.push_back(probe);
     } else {
-        tell(probe, false);
+        tell(probe, Rgb(0.0f));
     }
 }
 
-void ShadowRays::tell(const Probe& probe, bool is_seen) {
-    probe.shares->diffuse.add(probe.diffuse, is_seen);
-    probe.shares->glossy.add(probe.glossy, is_seen);
-    probe.shares->rim.add(probe.rim, is_seen);
+void ShadowRays::tell(const Probe& probe, const Rgb& left) {
+    probe.shares->diffuse.add(probe.diffuse, left);
+    probe.shares->glossy.add(probe.glossy, left);
+    probe.shares->rim.add(probe.rim, left);
 }
 
-void ShadowRays::trace(const Scene& scene, const OnSeen& on_seen) {
-    std::vector<std::uint8_t> hidden(rays_.size());
-    scene.occluded(rays_, hidden);
+void ShadowRays::trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen) {
+    std::vector<Rgb> left(rays_.size());
+    light_along(scene, max_passages, rays_, left, memory_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        tell(probes_[i], !hidden[i]);
-        if (on_seen && !hidden[i]) on_seen(rays_[i], probes_[i]);
+        tell(probes_[i], left[i]);
+        if (on_seen && max_component(left[i]) > 0.0f) on_seen(rays_[i], probes_[i], left[i]);
     }
     rays_.clear();
     probes_.clear();
 }
 
-void ask_points(const Scene& scene, float first_part, std::span<LaneShares> shares, const AddPoints& add,
-                const ShadowRays::OnSeen& on_seen) {
+void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
+                const AddPoints& add, const ShadowRays::OnSeen& on_seen) {
     std::array<bool, batch_size> wanted;
     wanted.fill(true);
     ShadowRays rays;
     for (PartOfPoints part{0.0f, first_part};; part = {part.end, std::min(2.0f * part.end, 1.0f)}) {
         add(part, wanted, rays);
-        rays.trace(scene, on_seen);
+        rays.trace(scene, max_passages, on_seen);
         for (std::size_t i = 0; i < shares.size(); ++i) wanted[i] &= shares[i].wanted_part() > part.end;
         if (part.end >= 1.0f || std::none_of(wanted.begin(), wanted.begin() + shares.size(), std::identity())) return;
     }
@@ -76,8 +76,8 @@ Reflection seen_in_part(const Reflection& whole, std::span<const LaneShares> sha
         const VisibleShare &diffuse = shares[i].diffuse, &glossy = shares[i].glossy;
         const VisibleShare& of_diffuse = diffuse.all > 0.0f ? diffuse : glossy;
         const VisibleShare& of_glossy = glossy.all > 0.0f ? glossy : diffuse;
-        seen.diffuse[i] *= of_diffuse.value();
-        seen.glossy[i] *= of_glossy.value();
+        seen.diffuse[i] *= of_diffuse.color();
+        seen.glossy[i] *= of_glossy.color();
         if (!(diffuse.all > 0.0f)) seen.diffuse_error[i] += 1.0f - of_diffuse.value();
         if (!(glossy.all > 0.0f)) seen.glossy_error[i] += 1.0f - of_glossy.value();
         const bool may_miss = in_penumbra && points.may_miss_edge(shares[i]);

@@ -10,6 +10,7 @@
 
 #include <functional>
 
+#include "core/integrators/passage.h"
 #include "core/integrators/surface_batch.h"
 #include "core/sampling/sobol.h"
 #include "core/scene/scene.h"
@@ -32,18 +33,28 @@ enum class PointSet : std::uint32_t {
 /// The share of a light that is seen, so far.
 struct VisibleShare {
     float seen = 0.0f, all = 0.0f, squares = 0.0f;
+    Rgb seen_color{0.0f};  ///< of which `seen` is the mean
 
-    void add(float weight, bool is_seen) {
+    /// left: of the light, on its way.
+    void add(float weight, const Rgb& left) {
         all += weight;
         squares += weight * weight;
-        if (is_seen) seen += weight;
+        seen += weight * mean_of(left);
+        seen_color += weight * left;
     }
     float value() const { return all > 0.0f ? seen / all : 1.0f; }
+    Rgb color() const { return all > 0.0f ? seen_color / all : Rgb(1.0f); }
     bool is_mixed() const { return seen > 0.0f && seen < all; }
     /// How many points of equal weight say as much.
     float count() const { return squares > 0.0f ? all * all / squares : 0.0f; }
     /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
     float variance() const { return is_mixed() ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f; }
+
+   private:
+    /// Exact where nothing or all is left.
+    static float mean_of(const Rgb& left) {
+        return left.x == left.y && left.x == left.z ? left.x : mean_component(left);
+    }
 };
 
 /// Of one lane, by each lobe's points, and by a few on the light's rim, which an edge that comes over it crosses first.
@@ -87,11 +98,14 @@ class ShadowPoints {
    public:
     ShadowPoints(const RenderSettings& settings, std::uint32_t sample_index)
         : ShadowPoints(points_for(100.0f / settings.error_budget_percent), 0.01f * settings.error_budget_percent,
-                       usual_samples(settings), sample_index) {}
+                       usual_samples(settings), sample_index, settings.max_passages) {}
+
+    /// Transparent surfaces that a ray to them may pass, and one.
+    std::uint32_t max_passages() const { return max_passages_; }
 
     /// For a light that gives this share of all light.
     ShadowPoints for_share(float share) const {
-        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), budget_, samples_, sample_index_};
+        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), budget_, samples_, sample_index_, max_passages_};
     }
     /// The same for points whose weights differ much: a sample's mean of few is shifted, by up to an eighth of a point
     /// or so, which other samples do not make good for. Not so of four.
@@ -137,8 +151,13 @@ class ShadowPoints {
     }
 
    private:
-    ShadowPoints(float pixel_count, float budget, std::uint32_t samples, std::uint32_t sample_index)
-        : pixel_count_(pixel_count), budget_(budget), samples_(samples), sample_index_(sample_index) {}
+    ShadowPoints(float pixel_count, float budget, std::uint32_t samples, std::uint32_t sample_index,
+                 std::uint32_t max_passages)
+        : pixel_count_(pixel_count),
+          budget_(budget),
+          samples_(samples),
+          sample_index_(sample_index),
+          max_passages_(max_passages) {}
 
     /// Adaptive sampling gives a penumbra more than the least; how many is not known before.
     static std::uint32_t usual_samples(const RenderSettings& settings) {
@@ -153,7 +172,7 @@ class ShadowPoints {
 
     float pixel_count_;  ///< of all samples together
     float budget_;       ///< relative
-    std::uint32_t samples_, sample_index_;
+    std::uint32_t samples_, sample_index_, max_passages_;
 };
 
 /// The largest part that a light's reflection has of any lane's total.
@@ -167,26 +186,27 @@ class ShadowRays {
         float diffuse, glossy;  ///< weights
         float rim = 0.0f;
     };
-    using OnSeen = std::function<void(const Ray&, const Probe&)>;
+    using OnSeen = std::function<void(const Ray&, const Probe&, const Rgb& left)>;
 
     void add(const Ray& ray, bool is_faced, const Probe& probe);
     /// on_seen: is told of the rays that nothing hides; may be empty.
-    void trace(const Scene& scene, const OnSeen& on_seen = {});
+    void trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen = {});
 
    private:
-    static void tell(const Probe& probe, bool is_seen);
+    static void tell(const Probe& probe, const Rgb& left);
 
     std::vector<Ray> rays_;
     std::vector<Probe> probes_;
+    ProgramMemory memory_;
 };
 
 /// Adds rays of some of the points of the lanes that want them.
 using AddPoints = std::function<void(const PartOfPoints&, std::span<const bool> wanted, ShadowRays& rays)>;
 
 /// Asks points for the share that each lane sees, until they are enough. first_part: asked in any case.
-/// shares: of at most batch_size lanes.
-void ask_points(const Scene& scene, float first_part, std::span<LaneShares> shares, const AddPoints& add,
-                const ShadowRays::OnSeen& on_seen = {});
+/// shares: of at most batch_size lanes. max_passages: of ShadowPoints.
+void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
+                const AddPoints& add, const ShadowRays::OnSeen& on_seen = {});
 
 /// What each lane reflects of a light towards the viewer, and how far off that may be.
 struct Reflection {

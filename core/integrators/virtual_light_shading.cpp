@@ -1,5 +1,6 @@
 #include "core/integrators/virtual_light_shading.h"
 
+#include "core/integrators/passage.h"
 #include "core/sampling/sobol.h"
 #include "core/shading/ggx_gaussian_light.h"
 
@@ -117,7 +118,9 @@ class LightCut {
     }
 
     /// A few shadow rays to each light that matters; the rest is seen as these are in the mean.
-    void trace(const Scene& scene) {
+    void trace(const Scene& scene, std::uint32_t max_passages) {
+        const ShadowPath shadow_path{max_passages, 0, WordBatch(camera_ray)};
+        ProgramMemory memory;
         const Batch zero(0.0f);
         Batch seen(0.0f), all(0.0f);
         std::vector<BatchMask> asked(cut_.size());
@@ -131,10 +134,15 @@ class LightCut {
             cut.visible = zero;
             for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
                 const PlaceInView place = place_in_view(*cut.light, asked[k], turn_ * rays_per_light + ray);
-                const RayOf<Batch> rays{origin, place.wi, zero,
-                                        select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+                RayOf<Batch> rays{origin, place.wi, zero,
+                                  select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
                 // Light from places that are all behind the surface comes through it.
-                cut.visible += select(place.is_faced, scene.visibility(rays), zero) * Batch(1.0f / rays_per_light);
+                Batch visible = select(place.is_faced, scene.visibility(rays), zero);
+                if (scene.has_transparency()) {
+                    rays.far_m = select(visible > zero, rays.far_m, zero);
+                    visible *= mean_component(light_through(scene, rays, shadow_path, memory));
+                }
+                cut.visible += visible * Batch(1.0f / rays_per_light);
             }
             seen += select(asked[k], size * cut.visible, zero);
             all += select(asked[k], size, zero);
@@ -393,7 +401,7 @@ std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& sc
     LightCut cut(batch, settings, turn);
     cut.cut(diffuse, glossy);
     cut.refine();
-    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene);
+    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene, settings.max_passages);
     return cut.result();
 }
 

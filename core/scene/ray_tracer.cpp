@@ -105,6 +105,11 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::u
     return any;
 }
 
+/// Of rays that were asked whether they are occluded: 1 for each that is not, else 0.
+Batch met_nothing(const BatchRays& rays) {
+    return select(Batch::load_unaligned(rays.tfar) > Batch(0.0f), Batch(1.0f), Batch(0.0f));
+}
+
 /// Calls visit(first, count, RayOf<Batch>) with so many rays from `first` on, in as many lanes.
 template <class Visit>
 void for_each_batch(std::span<const Ray> rays, const Visit& visit) {
@@ -139,6 +144,33 @@ void keep_crossing(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
 }
 
+/// What keep_filtered needs beside a hit, likewise.
+struct FilterQuery {
+    Context context;
+    const std::array<std::uint32_t, batch_size>* most;
+    const RayTracer::IsOpaque* is_opaque;
+    std::vector<RayTracer::Filtered>* found;
+    std::array<std::uint32_t, batch_size> counts{};
+};
+
+/// Keeps what a shadow ray passes and has Embree look on, until something hides the light.
+void keep_filtered(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<FilterQuery*>(arguments->context);
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        const std::size_t lane = RTCRayN_id(arguments->ray, n, i);
+        const RayHit hit{RTCRayN_tfar(arguments->ray, n, i),
+                         instance_of(RTCHitN_instID(arguments->hit, n, i, 0), RTCHitN_geomID(arguments->hit, n, i)),
+                         RTCHitN_primID(arguments->hit, n, i),
+                         {RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i)}};
+        if (query->counts[lane] == (*query->most)[lane] || (*query->is_opaque)(hit.instance, hit.triangle)) continue;
+        ++query->counts[lane];
+        query->found->push_back({lane, hit});
+        arguments->valid[i] = 0;
+    }
+}
+
 void set_transform(RTCGeometry geometry, const Transform& transform) {
     const Mat3<float>& m = transform.linear;
     const Vec3f& t = transform.translation;
@@ -161,6 +193,7 @@ struct RayTracer::Implementation {
     };
 
     bool finds_crossings;
+    bool filters = false;  ///< whether rays stop at what a callback says
     Owned<RTCDevice> device;
     Owned<RTCScene> world;  ///< still_id is the still scene; id + 1 an instance that is traced in its own space
     Owned<RTCScene> still;  ///< instances in world space: one BVH, and no transforms on the way
@@ -187,9 +220,9 @@ struct RayTracer::Implementation {
         // Exact at shared edges: no light leaks between triangles.
         int flags = RTC_SCENE_FLAG_ROBUST | (triangle_count > max_fast_triangles ? RTC_SCENE_FLAG_COMPACT : 0);
 #if RTC_VERSION_MAJOR >= 4
-        if (finds_crossings) flags |= RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+        if (filters) flags |= RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
-        if (finds_crossings) flags |= RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+        if (filters) flags |= RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
         rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
         rtcCommitScene(scene);
@@ -216,7 +249,7 @@ struct RayTracer::Implementation {
         if (!scene) {
             const Mesh& mesh = *meshes.at(mesh_id);
             const auto geometry = make_triangles(mesh, mesh.positions);
-            rtcSetGeometryMask(geometry.get(), visible_to_all);
+            rtcSetGeometryMask(geometry.get(), ~0u);
             rtcCommitGeometry(geometry.get());
             scene = make_scene();
             rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
@@ -259,12 +292,30 @@ struct RayTracer::Implementation {
         instance.side = Side::none;
     }
 
+    /// BVHs know when they are built whether callbacks filter hits, which costs where none does.
+    void set_filters() {
+        const auto is_filter = [](const auto& entry) { return (entry.second.visibility & filters_light) != 0; };
+        const bool wanted = finds_crossings || std::ranges::any_of(placed, is_filter);
+        if (std::exchange(filters, wanted) == wanted) return;
+        for (auto& [id, instance] : placed) detach(id, instance);
+        mesh_scenes.clear();
+        changed = still_changed = true;
+    }
+
     std::size_t still_triangles() const {
         std::size_t count = 0;
         for (const auto& [id, instance] : placed) {
             if (instance.side == Side::still) count += meshes.at(instance.mesh)->triangles.size();
         }
         return count;
+    }
+
+    /// 1 for each ray that meets none of those whom the mask sees, else 0.
+    Batch meet_nothing(const RayOf<Batch>& rays, std::uint32_t mask) const {
+        alignas(64) int valid[batch_size];
+        BatchRays r;
+        if (fill_packet(r, valid, rays, mask)) trace(occluded_batch, traced(), r, valid);
+        return met_nothing(r);
     }
 
     void attach_all() {
@@ -294,7 +345,7 @@ RayTracer::RayTracer(bool finds_crossings) : implementation_(std::make_unique<Im
     self.world = self.make_scene();
     self.still = self.make_scene();
     self.still_in_world = self.make_instance(self.still.get(), {});
-    rtcSetGeometryMask(self.still_in_world.get(), visible_to_all);
+    rtcSetGeometryMask(self.still_in_world.get(), ~0u);
     rtcAttachGeometryByID(self.world.get(), self.still_in_world.get(), still_id);
     self.check();
 }
@@ -338,6 +389,7 @@ void RayTracer::remove_instance(std::uint32_t instance_id) {
 
 void RayTracer::commit() {
     auto& self = *implementation_;
+    self.set_filters();
     if (!self.changed) return;
     self.attach_all();
     if (self.still_changed) {
@@ -402,7 +454,7 @@ void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<
 
 void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
     for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
-        const auto visible = store(visibility(batch));
+        const auto visible = store(implementation_->meet_nothing(batch, visible_to_light));
         for (std::size_t i = 0; i < count; ++i) occluded_rays[first + i] = visible[i] > 0.0f ? 0 : 1;
     });
 }
@@ -427,11 +479,29 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
             .barycentric = {Batch::load_unaligned(r.hit.u), Batch::load_unaligned(r.hit.v)}};
 }
 
-Batch RayTracer::visibility(const RayOf<Batch>& rays) const {
+Batch RayTracer::visibility(const RayOf<Batch>& rays) const { return implementation_->meet_nothing(rays, hides_light); }
+
+Batch RayTracer::filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, batch_size>& most,
+                          const IsOpaque& is_opaque, std::vector<Filtered>& found) const {
     alignas(64) int valid[batch_size];
     BatchRays r;
-    if (fill_packet(r, valid, rays, visible_to_light)) trace(occluded_batch, implementation_->traced(), r, valid);
-    return select(Batch::load_unaligned(r.tfar) > Batch(0.0f), Batch(1.0f), Batch(0.0f));
+    if (!fill_packet(r, valid, rays, filters_light)) return Batch(0.0f);
+    for (std::size_t i = 0; i < batch_size; ++i) r.id[i] = static_cast<unsigned>(i);
+    FilterQuery query{{}, &most, &is_opaque, &found};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query.context);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.filter = keep_filtered;
+    arguments.context = &query.context;
+    occluded_batch(valid, implementation_->traced(), &r, &arguments);
+#else
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = keep_filtered;
+    occluded_batch(valid, implementation_->traced(), &query.context, &r);
+#endif
+    return met_nothing(r);
 }
 
 }  // namespace pivot

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,8 +36,14 @@ using Ray = RayOf<float>;
 using RayHit = RayHitOf<float>;
 inline constexpr std::uint32_t no_instance = ~0u;
 
-/// Who sees an instance.
-enum Visibility : std::uint32_t { visible_to_camera = 1, visible_to_light = 2, visible_to_all = 3 };
+/// Who sees an instance. Shadow rays end at what hides light, and pass what filters it.
+enum Visibility : std::uint32_t {
+    visible_to_camera = 1,
+    visible_to_light = 2,
+    visible_to_all = 3,
+    hides_light = 4,
+    filters_light = 8,
+};
 
 /// Where a ray passes through a surface.
 struct Crossing {
@@ -63,6 +70,7 @@ class RayTracer {
     void commit();
 
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const;
+    /// Whether anything is there, even if it filters light.
     bool occluded(const Ray& ray) const;
 
     /// Many at once, in batches of neighbours in the span. hits: one per ray.
@@ -76,8 +84,20 @@ class RayTracer {
     void crossings(const Ray& ray, std::vector<Crossing>& found) const;
 
     RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const;
-    /// 1 for each ray that meets nothing, else 0.
+    /// 1 for each ray that meets nothing that hides light, else 0.
     Batch visibility(const RayOf<Batch>& rays) const;
+
+    /// A ray of a batch, and where it meets what filters light.
+    struct Filtered {
+        std::size_t lane;
+        RayHit hit;
+    };
+    /// Whether a triangle of what filters light does not: a mesh has many materials.
+    using IsOpaque = std::function<bool(std::uint32_t instance, std::uint32_t triangle)>;
+    /// Appends all that filters light along the rays, in no order. Returns 1 for each ray that meets nothing opaque
+    /// among it, nor more surfaces than `most` of its lane; of the others it may not have found all.
+    Batch filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, batch_size>& most,
+                   const IsOpaque& is_opaque, std::vector<Filtered>& found) const;
 
    private:
     struct Implementation;

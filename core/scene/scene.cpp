@@ -54,7 +54,8 @@ void require_valid(const std::string& name, const Material& material) {
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
         !valid(material.dielectric_tint) || !is_finite(material.emission) || !std::isfinite(material.alpha) ||
         !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
-        !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f)) {
+        !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f) || !valid(material.transparency.color) ||
+        !(material.transparency.opacity >= 0.0f) || !std::isfinite(material.transparency.opacity)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
     if (material.alpha < 0.0f || material.alpha > 1.0f)
@@ -121,6 +122,7 @@ std::uint32_t Scene::attribute_id(const std::string& name) {
 std::uint32_t Scene::add_material(const std::string& name, Shader shader) {
     const auto edit = begin_edit();
     require_valid(name, shader.constants);
+    shader.set_transparency();
     shaders_.push_back(std::move(shader));
     return static_cast<std::uint32_t>(shaders_.size() - 1);
 }
@@ -162,6 +164,7 @@ void Scene::set_material(std::uint32_t id, Shader shader) {
     Shader& edited = at(shaders_, id, "material");
     const bool changes_lights = edited.constants.emission != shader.constants.emission ||
                                 edited.has_varying_emission() || shader.has_varying_emission();
+    shader.set_transparency();
     edited = std::move(shader);
     if (!changes_lights) return;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -255,7 +258,8 @@ void Scene::commit() {
     const std::lock_guard lock(committing_);
     if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
-    commit_media();
+    commit_visibility();
+    media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
     ray_tracer_.commit();
     for (const Shader& shader : shaders_) shader.program.make_image_levels();
     world_.program.make_image_levels();
@@ -264,15 +268,30 @@ void Scene::commit() {
     is_committed_ = true;
 }
 
-void Scene::commit_media() {
+void Scene::commit_visibility() {
+    has_transparency_ = false;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
+        const auto any_is = [&](const auto& what) {
+            return std::ranges::any_of(instances_[i]->materials, [&](std::uint32_t id) { return what(shaders_[id]); });
+        };
         // Faces that only bound a medium are met by no ray but the media's own.
-        const auto has_surface = [&](std::uint32_t material) { return shaders_[material].has_surface; };
-        const bool is_met = std::ranges::any_of(instances_[i]->materials, has_surface);
-        ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), is_met ? instances_[i]->visibility : 0);
+        const bool is_met = any_is([](const Shader& shader) { return shader.has_surface; });
+        const bool is_transparent = any_is([](const Shader& shader) { return shader.is_transparent(); });
+        std::uint32_t visibility = is_met ? instances_[i]->visibility : 0;
+        if (visibility & visible_to_light) visibility |= is_transparent ? filters_light : hides_light;
+        has_transparency_ = has_transparency_ || (visibility != 0 && is_transparent);
+        ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), visibility);
     }
-    media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
+}
+
+Batch Scene::filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, batch_size>& most,
+                      std::vector<RayTracer::Filtered>& found) const {
+    const RayTracer::IsOpaque is_opaque = [this](std::uint32_t id, std::uint32_t triangle) {
+        const Instance& instance = *instances_[id];
+        return !shaders_[pivot::material_of(instance, *meshes_[instance.mesh], triangle)].is_transparent();
+    };
+    return ray_tracer_.filtered(rays, most, is_opaque, found);
 }
 
 void Scene::commit_lamps() {

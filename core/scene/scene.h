@@ -92,6 +92,12 @@ class Scene {
     }
     /// The lowest and the highest corner of a box around all surfaces.
     std::array<Vec3f, 2> bounds() const { return ray_tracer_.bounds(); }
+    /// Whether light passes straight through some surface; elsewhere it need not be asked.
+    bool has_transparency() const { return has_transparency_; }
+    /// What filters light along shadow rays that nothing hides, see RayTracer; a batch of rays, and of each how many
+    /// surfaces it may pass.
+    Batch filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, batch_size>& most,
+                   std::vector<RayTracer::Filtered>& found) const;
     /// What fills space; empty in most scenes.
     const Media& media() const { return *media_; }
     RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const {
@@ -128,7 +134,7 @@ class Scene {
     [[nodiscard]] std::unique_lock<std::mutex> begin_edit();
     std::optional<Light>& light_at(std::uint32_t id);
     void require_materials(const Instance& instance) const;
-    void commit_media();
+    void commit_visibility();
     void commit_lamps();
     void commit_triangle_lights();
     bool shines(std::size_t instance) const;
@@ -154,6 +160,7 @@ class Scene {
     CameraFacts camera_facts_;
     RayTracer ray_tracer_;
     std::unique_ptr<const Media> media_;
+    bool has_transparency_ = false;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
     int holders_ = 0;
     std::mutex committing_, tracing_bent_cones_;

@@ -40,6 +40,9 @@ struct CameraFacts {
 /// By what kind of ray, Blender's Light Path tells them apart.
 enum RayKind : std::uint32_t { camera_ray = 1, diffuse_ray = 2, glossy_ray = 4, transmission_ray = 8, shadow_ray = 16 };
 
+/// Beside its kind, a ray's word tells how many transparent surfaces its path has passed so far.
+inline constexpr std::uint32_t ray_kinds = 31, passed_one = 32;
+
 /// What the lanes' places have of their own, and their rays.
 struct PlaceLanes {
     std::array<const Mesh*, batch_size> meshes;  ///< null: the world, at a direction
@@ -49,7 +52,7 @@ struct PlaceLanes {
     Vec3b wo;     ///< world, towards where the ray came from
     Batch front;  ///< 1, or -1 where the back is seen
     Batch ray_length_m;
-    WordBatch ray_kind;
+    WordBatch ray_kind;  ///< with what it passed
     WordBatch bounce;
     const CameraFacts* camera;
     Batch footprint_m;  ///< how wide the ray's part of a pixel is there

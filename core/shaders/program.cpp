@@ -64,6 +64,26 @@ std::uint32_t Program::bump_neighbour(float filter_width) {
     return 3 + 2 * index;
 }
 
+Program Program::part_for(std::span<const std::uint32_t> registers) const {
+    std::vector<bool> is_wanted(register_count_, false);
+    for (const std::uint32_t index : registers) is_wanted[index] = true;
+    Program part = *this;
+    part.steps_.clear();
+    part.needs_neighbours_ = false;
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        const auto outputs = is_wanted.begin() + step->first_output;
+        if (std::none_of(outputs, outputs + step->kind->output_count, std::identity())) continue;
+        for (std::uint32_t i = 0; i < step->kind->input_count; ++i) {
+            const Input& input = inputs_[step->first_input + i];
+            if (input.register_index != Input::constant) is_wanted[input.register_index] = true;
+        }
+        part.steps_.push_back(*step);
+        part.needs_neighbours_ = part.needs_neighbours_ || step->neighbour != 0;
+    }
+    std::ranges::reverse(part.steps_);
+    return part;
+}
+
 std::vector<std::string_view> Program::ops() const {
     std::vector<std::string_view> names;
     for (const Step& step : steps_) names.push_back(step.kind->name);

@@ -28,6 +28,8 @@ class Program {
     std::uint32_t bump_neighbour(float filter_width);
 
     bool is_empty() const { return steps_.empty(); }
+    /// Those of its steps that these registers depend on; registers keep their places.
+    Program part_for(std::span<const std::uint32_t> registers) const;
     std::uint32_t register_count() const { return register_count_; }
     /// The names of the steps' kinds, in order.
     std::vector<std::string_view> ops() const;

@@ -28,6 +28,7 @@ struct Shader {
     std::shared_ptr<const Medium> medium;                     ///< that fills what it surrounds; none: nothing
     bool has_surface = true;                                  ///< false: rays pass, and only the medium is there
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
+    Program transparency;        ///< what of the program tells how much light passes; set_transparency() makes it
 
     Shader(const Material& material) : constants(material) {}  // NOLINT: a material is a shader of constants
     Shader(const Material& material, Program runs) : constants(material), program(std::move(runs)) {}
@@ -37,9 +38,20 @@ struct Shader {
         return std::ranges::any_of(
             varying, [](const Varying& v) { return v.number >= emission_place && v.number < emission_place + 3; });
     }
+    bool has_varying_transparency() const {
+        return std::ranges::any_of(varying, [](const Varying& v) { return v.number >= transparency_place; });
+    }
+    /// Whether light may pass straight through it.
+    bool is_transparent() const {
+        return has_varying_transparency() || max_component(constants.transparency.color) > 0.0f;
+    }
+    void set_transparency();
     /// Whether light may leave it of its own.
     bool is_emissive() const { return has_varying_emission() || constants.is_emissive(); }
 };
+
+/// What of light passes at each lane's place; the registers: as `transparency` leaves them.
+TransparencyOf<Batch> transparency_at(const Shader& shader, std::span<const Batch> registers);
 
 /// The material at each lane's place, its numbers within what a surface can be made of.
 MaterialOf<Batch> material_at(const Shader& shader, std::span<const Batch> registers);

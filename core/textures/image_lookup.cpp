@@ -222,9 +222,15 @@ std::tuple<Vec3b, Batch> Image::lookup(const ImageLookup& how, const Vec2b& uv, 
     const auto& [a, b, c, d] = found.numbers;
     const Batch alpha = channels_ == 4 ? d : channels_ == 2 ? b : found.coverage;
     Vec3b color = channels_ < 3 ? Vec3b(a) : Vec3b(a, b, c);
-    if (how.unassociate) color = color / select(alpha != zero, alpha, one);
-    if (is_srgb_) color = {linear_from_srgb(color.x), linear_from_srgb(color.y), linear_from_srgb(color.z)};
-    return {color, alpha};
+    const Batch divisor = how.unassociate ? select(alpha != zero, alpha, one) : one;
+    if (!is_srgb_) return {color / divisor, alpha};
+    const auto linear = [](const Vec3b& srgb) {
+        return Vec3b(linear_from_srgb(srgb.x), linear_from_srgb(srgb.y), linear_from_srgb(srgb.z));
+    };
+    const Vec3b sharp = linear(color / divisor);
+    if (!how.unassociate || !probes.any_deep) return {sharp, alpha};
+    // Cycles divides what is stored. The copies' colours are means of light that alpha is multiplied into.
+    return {sharp + (linear(color) / divisor - sharp) * min(probes.depth, one), alpha};
 }
 
 }  // namespace pivot

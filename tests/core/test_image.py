@@ -109,6 +109,16 @@ def test_alpha_is_taken_out_of_colors() -> None:
     assert found == pytest.approx(np.array(expected), abs=1e-6)
 
 
+@pytest.mark.parametrize("srgb", [True, False])
+def test_copies_of_cut_out_pictures_keep_their_color(srgb: bool) -> None:
+    """A quarter is covered; all of the picture is looked up at once."""
+    pixels = np.zeros((64, 64, 4), np.uint8)
+    pixels[:32, :32] = 200, 100, 50, 255
+    rgba = looked_up(pivot_core.Image(pixels, srgb=srgb), [(0.5, 0.5)], step=(1, 1), unassociate=True)[0]
+    color = numbers(pixels[0, 0, :3])
+    assert rgba == pytest.approx([*(decoded(color) if srgb else color), 0.25], abs=3 / 255)  # bytes of a quarter
+
+
 @pytest.mark.parametrize("shape", [(8, 8), (5, 7), (1, 9), (13, 1), (1, 1)])
 @pytest.mark.parametrize("dtype", [np.uint8, np.float32])
 def test_every_copy_has_the_mean(shape: tuple[int, int], dtype: Any) -> None:

@@ -117,7 +117,7 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness",
+        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
@@ -128,7 +128,6 @@ INPUTS = {
             ("Anisotropic", 0.0),
             ("Diffuse Roughness", 0.0),
             ("Thin Film Thickness", 0.0),
-            ("Alpha", 1.0),
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
         "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
@@ -152,7 +151,7 @@ INPUTS = {
         no_meaning="Weight, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
     ),
     "ShaderNodeBsdfRefraction": Inputs("Color, Roughness, IOR, Normal", no_meaning="Weight"),
-    "ShaderNodeBsdfTransparent": Inputs(no_meaning="Color, Weight"),
+    "ShaderNodeBsdfTransparent": Inputs("Color", no_meaning="Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeVolumeScatter": Inputs(

@@ -97,8 +97,9 @@ SCENE = {
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),
-        # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; what transparency and
-        # motion blur take, which are reported; bakes and debugging.
+        used="transparent_max_bounces",
+        # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; what motion blur takes,
+        # which is reported; bakes and debugging.
         no_meaning="""
         name device feature_set shading_system preview_pause use_denoising denoiser denoising_prefilter
         denoising_input_passes use_preview_denoising preview_denoiser preview_denoising_prefilter
@@ -109,7 +110,7 @@ SCENE = {
         min_light_bounces min_transparent_bounces use_guiding use_deterministic_guiding
         guiding_distribution_type use_surface_guiding surface_guiding_probability use_volume_guiding
         guiding_training_samples volume_guiding_probability use_guiding_direct_light use_guiding_mis_weights
-        volume_bounces transparent_max_bounces volume_step_rate volume_preview_step_rate
+        volume_bounces volume_step_rate volume_preview_step_rate
         volume_max_steps dicing_rate preview_dicing_rate max_subdivisions dicing_camera offscreen_dicing_scale
         film_transparent_roughness seed use_animated_seed debug_bvh_type debug_use_spatial_splits debug_use_hair_bvh
         debug_use_compact_bvh debug_bvh_time_steps bake_type camera_cull_margin distance_cull_margin

@@ -23,6 +23,8 @@ def _light_path(node: Node) -> Value:
         return node.op("ray_length")
     if node.output == "Ray Depth":
         return node.op("ray_depth")
+    if node.output == "Transparent Depth":
+        return node.op("transparent_depth")
     node.warn(f"{node.output} is not supported, it is 0")
     return node.program.number(0.0)
 

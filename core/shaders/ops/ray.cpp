@@ -18,13 +18,18 @@ Batch ray_length(const Place& place) {
     if (place.lanes.is_world()) return std::numeric_limits<Batch>::max();
     const Batch whole = place.lanes.ray_length_m, depth = camera_from_world_point(place, place.position).z;
     const Batch unseen = divided(Batch(place.lanes.camera->clip_start_m) * whole, depth);
-    return select(equal(place.lanes.ray_kind, WordBatch(camera_ray)), whole - unseen, whole);
+    return select(equal(place.lanes.ray_kind & WordBatch(ray_kinds), WordBatch(camera_ray)), whole - unseen, whole);
 }
 
 /// The light that the world sheds counts as one further. [Cycles 4.5 svm/light_path.h:61-70]
 Batch ray_depth(const Place& place) {
     const Batch bounce = xsimd::to_float(std::bit_cast<IndexBatch>(place.lanes.bounce));
     return place.lanes.is_world() ? bounce + one : bounce;
+}
+
+/// How many transparent surfaces the ray's path has passed.
+Batch transparent_depth(const Place& place) {
+    return xsimd::to_float(std::bit_cast<IndexBatch>(place.lanes.ray_kind >> 5));
 }
 
 /// Reflectance of a dielectric boundary by the cosine of either side, 1 where all is reflected.
@@ -55,6 +60,7 @@ constexpr std::array ops{
     op<ray_is>("ray_is"),
     op<ray_length>("ray_length"),
     op<ray_depth>("ray_depth"),
+    op<transparent_depth>("transparent_depth"),
     op<fresnel>("fresnel"),
     op<layer_weight_fresnel>("layer_weight_fresnel"),
     op<layer_weight_facing>("layer_weight_facing"),

@@ -29,6 +29,7 @@ def _settings() -> Any:
     pivot.integrator, pivot.light_sampling = "ANALYTIC", "SPTD"
     pivot.samples, pivot.adaptive, pivot.seed, pivot.max_bounces = 7, True, 3, 0
     pivot.clamp_indirect, pivot.filter_glossy = 2.5, 1.5
+    bpy.context.scene.cycles.transparent_max_bounces = 3
     pivot.error_budget, pivot.time_limit = 0.5, 12
     pivot.analytic_method, pivot.occlusion = "LTC", "BENT_CONE"
     pivot.indirect, pivot.virtual_lights = "VSGL", 256

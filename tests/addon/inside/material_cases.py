@@ -197,6 +197,24 @@ def _nearest() -> None:
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
     use(leaf)
 
+    image = bpy.data.images.new("leaf", 2, 1, alpha=True)
+    feed(shader("cut_out", "ShaderNodeBsdfPrincipled"), "Alpha", "ShaderNodeTexImage", output=1).image = image
+    shadowless, tree = parts.material("shadowless")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    for index, kind in enumerate(("Diffuse", "Transparent"), start=1):
+        tree.links.new(tree.nodes.new(f"ShaderNodeBsdf{kind}").outputs[0], mix.inputs[index])
+    path = tree.nodes.new("ShaderNodeLightPath")
+    tree.links.new(path.outputs["Is Shadow Ray"], mix.inputs[0])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(shadowless)
+    glass, tree = parts.material("shining_glass")
+    add = tree.nodes.new("ShaderNodeAddShader")
+    for index, kind in enumerate(("BsdfTransparent", "Emission")):
+        tree.links.new(tree.nodes.new(f"ShaderNode{kind}").outputs[0], add.inputs[index])
+    tree.nodes["Transparent BSDF"].inputs["Color"].default_value = GREEN
+    tree.links.new(add.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(glass)
+
     unknown, tree = parts.material("unknown_factor")
     mix = tree.nodes.new("ShaderNodeMixShader")
     feed(mix, mix.inputs[0].name, "ShaderNodeTexNoise")

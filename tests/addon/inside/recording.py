@@ -31,6 +31,8 @@ class Material:
     weight: float = 1.0
     emission: Any = (0, 0, 0)
     lobes: Any = ()
+    transparency: Any = (0, 0, 0)
+    opacity: float | None = None
 
 
 @dataclass
@@ -98,6 +100,7 @@ class RenderSettings:
     adaptive: bool
     seed: int
     max_bounces: int
+    max_passages: int
     clamp_indirect: float
     filter_glossy: float
     light_sampling: str
