@@ -37,6 +37,7 @@ struct VisibleShare {
 
     /// left: of the light, on its way.
     void add(float weight, const Rgb& left) {
+        if (weight == 0.0f) return;  // a ray tells of one lobe, mostly
         all += weight;
         squares += weight * weight;
         seen += weight * mean_of(left);
