@@ -21,7 +21,7 @@ NAMES = {
     "panoramic": "camera 'Camera' is panoramic",
     "not_a_camera": "object 'ground'",
     "samples": "samples must be at least 1",
-    "too_large": "a picture of 60000 x 60000 pixels takes 6",  # hundred and some GB
+    "too_large": "a picture of 60000 x 60000 pixels takes 7",  # hundred and some GB
 }
 
 
