@@ -364,7 +364,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         sample.volume_direct = fog[i].scattered;
         sample.error = sample.error * left + fog[i].error;
         sample.shadow_variance = sample.shadow_variance * sqr(left) + fog[i].shadow_variance;
-        if (!hits[i] && settings.transparent_film) sample.alpha = 1.0f - left;
+        if (!hits[i] && settings.transparent_film) sample.alpha = 1.0f - std::min(left, 1.0f);
     }
 }
 

@@ -43,7 +43,7 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
         }
         if (ends) continue;
         if (settings.transparent_film)
-            sample.alpha = 1.0f - mean_component(one.worth);
+            sample.alpha = 1.0f - std::min(mean_component(one.worth), 1.0f);
         else
             sample.radiance = one.worth * world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0,
                                                          memory.registers);

@@ -104,7 +104,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
         if (ends) continue;
         cross_to(camera_rays[i].far_m);
         if (work.settings.transparent_film)
-            sample.alpha = 1.0f - mean_component(path.throughput);
+            sample.alpha = 1.0f - std::min(mean_component(path.throughput), 1.0f);
         else
             sample.radiance += path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction,
                                                                 camera_ray, 0, work.memory.registers);
