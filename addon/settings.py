@@ -36,12 +36,18 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "filter_width_px": 2 * scene.render.filter_size,  # as wide as Cycles' filter of that size: film.cpp doubles it
         "transparent_film": scene.render.film_transparent,
         "max_passages": _max_transparent_bounces(scene),
+        "max_path_passages": _max_path_passages(scene),
     }
 
 
 def _max_transparent_bounces(scene: bpy.types.Scene) -> int:
     """Cycles' own setting, or what it would be where there is no Cycles."""
     return scene.cycles.transparent_max_bounces if hasattr(scene, "cycles") else 8
+
+
+def _max_path_passages(scene: bpy.types.Scene) -> int:
+    """Cycles' paths passed one more before Blender 5.0."""
+    return _max_transparent_bounces(scene) + (bpy.app.version < (5, 0))
 
 
 def render_settings(native: Any, scene: bpy.types.Scene, values: dict[str, Any]) -> Any:

@@ -21,10 +21,12 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
                              float filter_glossy, const string& indirect, int virtual_lights,
-                             const string& virtual_light_method, bool denoising_passes, int max_passages) {
+                             const string& virtual_light_method, bool denoising_passes, int max_passages,
+                             int max_path_passages) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(max_passages >= 0, "max_passages must not be negative");
+    require(max_path_passages >= 0, "max_path_passages must not be negative");
     require(clamp_indirect >= 0.0f, "clamp_indirect must not be negative");
     require(filter_glossy >= 0.0f, "filter_glossy must not be negative");
     require(error_budget_percent > 0.0f, "error_budget_percent must be above 0");
@@ -41,6 +43,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .seed = seed,
         .max_bounces = static_cast<std::uint32_t>(max_bounces),
         .max_passages = static_cast<std::uint32_t>(max_passages),
+        .max_path_passages = static_cast<std::uint32_t>(max_path_passages),
         .clamp_indirect = clamp_indirect,
         .filter_glossy = filter_glossy,
         .error_budget_percent = error_budget_percent,
@@ -85,8 +88,8 @@ void register_render(py::module_& module) {
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
-             py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false,
-             py::arg("max_passages") = 8);
+             py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
+             py::arg("max_path_passages") = 9);
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")

@@ -672,6 +672,7 @@ class RenderSettings:
         virtual_light_method: str = "AUTO",
         denoising_passes: bool = False,
         max_passages: typing.SupportsInt | typing.SupportsIndex = 8,
+        max_path_passages: typing.SupportsInt | typing.SupportsIndex = 9,
     ) -> None: ...
 
 class Session:

@@ -209,7 +209,7 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
             straight.push_back({rays[i], hits[i], diffuse_ray, vertices[i].footprint_m, spread});
         }
         const auto sample_of = [&](std::size_t i) { return vertices[i].sample; };
-        passages = find_passages(work_.scene, work_.settings.max_passages, straight, visible_to_light, bounce + 1,
+        passages = find_passages(work_.scene, work_.settings.max_path_passages, straight, visible_to_light, bounce + 1,
                                  chosen_by(work_.samplers, bounce + 1, never_two, sample_of), work_.memory);
     }
     const std::vector<WayOn> ways = ways_on(passages, hits);

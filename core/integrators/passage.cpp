@@ -81,9 +81,9 @@ std::uint32_t passed_by(std::uint32_t ray_kind) { return ray_kind / passed_one; 
 
 }  // namespace
 
-std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_passages, std::span<const StraightRay> rays,
-                                   Visibility from, std::uint32_t bounce, const PassageChoice& choice,
-                                   ProgramMemory& memory) {
+std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
+                                   std::span<const StraightRay> rays, Visibility from, std::uint32_t bounce,
+                                   const PassageChoice& choice, ProgramMemory& memory) {
     std::vector<Passage> passages;
     std::vector<Going> going;
     for (std::uint32_t i = 0; i < rays.size(); ++i)
@@ -102,7 +102,7 @@ std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_passage
                                 .opacity = 1.0f,
                                 .shown = 1.0f,
                                 .passed = Rgb(0.0f),
-                                .only_shines = passed > max_passages});
+                                .only_shines = passed >= max_path_passages});
             const Passage& passage = passages.back();
             if (passage.only_shines || !scene.shaders()[passage.material].is_transparent()) continue;
             arrivals.push_back({.direction = ray.ray.direction,

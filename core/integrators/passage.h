@@ -53,9 +53,9 @@ struct PassageChoice {
 
 /// The surfaces on the rays' ways, by ray and then by distance: those that are passed, and one behind unless there is
 /// none. bounce: of what comes next.
-std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_passages, std::span<const StraightRay> rays,
-                                   Visibility from, std::uint32_t bounce, const PassageChoice& choice,
-                                   ProgramMemory& memory);
+std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
+                                   std::span<const StraightRay> rays, Visibility from, std::uint32_t bounce,
+                                   const PassageChoice& choice, ProgramMemory& memory);
 
 /// Those of one ray, the next; all: as found, less what was taken.
 std::span<const Passage> take_passages(std::span<const Passage>& all, std::size_t ray);

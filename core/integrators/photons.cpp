@@ -189,7 +189,7 @@ std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& poin
 }
 
 /// Has photons go straight on through transparent surfaces from what they first met: sets that to where they end.
-void go_on(const Scene& scene, std::uint32_t max_passages, std::vector<Photon>& photons, std::uint32_t bounce,
+void go_on(const Scene& scene, std::uint32_t max_path_passages, std::vector<Photon>& photons, std::uint32_t bounce,
            ProgramMemory& memory, std::vector<std::optional<RayHit>>& hits) {
     std::vector<StraightRay> straight;
     for (std::size_t i = 0; i < photons.size(); ++i)
@@ -198,7 +198,7 @@ void go_on(const Scene& scene, std::uint32_t max_passages, std::vector<Photon>& 
         return photons[i].sampler.point(passage_dimension(bounce, passed)).x;
     };
     const std::vector<Passage> passages =
-        find_passages(scene, max_passages, straight, visible_to_light, bounce + 1, {never_two, u}, memory);
+        find_passages(scene, max_path_passages, straight, visible_to_light, bounce + 1, {never_two, u}, memory);
     const std::vector<WayOn> ways = ways_on(passages, hits);
     for (std::size_t i = 0; i < photons.size(); ++i) {
         hits[i] = ways[i].only_shines() ? std::nullopt : ways[i].hit;
@@ -207,7 +207,7 @@ void go_on(const Scene& scene, std::uint32_t max_passages, std::vector<Photon>& 
 }
 
 /// Follows photons from surface to surface.
-void trace(const Scene& scene, std::uint32_t max_passages, std::vector<Photon> photons, std::uint32_t bounces,
+void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Photon> photons, std::uint32_t bounces,
            Deposits& deposits) {
     ProgramMemory memory;
     for (std::uint32_t bounce = 0; bounce < bounces && !photons.empty(); ++bounce) {
@@ -215,7 +215,7 @@ void trace(const Scene& scene, std::uint32_t max_passages, std::vector<Photon> p
         for (const Photon& photon : photons) rays.push_back(photon.ray);
         std::vector<std::optional<RayHit>> hits(rays.size());
         scene.intersect(rays, visible_to_light, hits);
-        if (scene.has_transparency()) go_on(scene, max_passages, photons, bounce, memory, hits);
+        if (scene.has_transparency()) go_on(scene, max_path_passages, photons, bounce, memory, hits);
         std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the photon of each
         for (std::size_t i = 0; i < hits.size(); ++i)
             if (hits[i])
@@ -268,7 +268,7 @@ VirtualLights trace_virtual_lights(const Scene& scene, const RenderSettings& set
     std::vector<Deposits> parts((photons.size() + chunk - 1) / chunk);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const auto own = std::span(photons).subspan(i * chunk, std::min(chunk, photons.size() - i * chunk));
-        trace(scene, settings.max_passages, {own.begin(), own.end()}, settings.max_bounces, parts[i]);
+        trace(scene, settings.max_path_passages, {own.begin(), own.end()}, settings.max_bounces, parts[i]);
     });
     Deposits deposits;
     for (const Deposits& part : parts) {

@@ -36,11 +36,12 @@ struct RenderSettings {
     std::uint32_t samples = 64;
     bool adaptive = false;  ///< samples go where they help the picture most, until it meets the error budget
     std::uint32_t seed = 0;
-    std::uint32_t max_bounces = 4;      ///< 0: direct light only
-    std::uint32_t max_passages = 8;     ///< transparent surfaces in a light's way; seen is one more, then what shines
-    float clamp_indirect = 0.0f;        ///< the mean over colours that light which bounced adds at once; 0: no bound
-    float filter_glossy = 0.0f;         ///< blurs what is met after BSDF samples of a density below this; 0: nothing
-    float error_budget_percent = 2.0f;  ///< analytic: the steps a penumbra may show; adaptive: what noise may be left
+    std::uint32_t max_bounces = 4;        ///< 0: direct light only
+    std::uint32_t max_passages = 8;       ///< transparent surfaces that a path and a shadow ray from it pass together
+    std::uint32_t max_path_passages = 9;  ///< and that a path passes: of what is behind it shows only what shines
+    float clamp_indirect = 0.0f;          ///< the mean over colours that light which bounced adds at once; 0: no bound
+    float filter_glossy = 0.0f;           ///< blurs what is met after BSDF samples of a density below this; 0: nothing
+    float error_budget_percent = 2.0f;    ///< analytic: the steps a penumbra may show; adaptive: what noise may be left
     AnalyticMethod analytic_method = AnalyticMethod::automatic;
     Occlusion occlusion = Occlusion::ray_traced;
     Indirect indirect = Indirect::none;

@@ -7,7 +7,7 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
                                   std::span<Sample> samples) {
     std::vector<Passage> passages;
     if (scene.has_transparency())
-        passages = find_passages(scene, settings.max_passages, straight_rays(camera_rays, hits, spread),
+        passages = find_passages(scene, settings.max_path_passages, straight_rays(camera_rays, hits, spread),
                                  visible_to_camera, 0, {.least_part = 0.0f, .u = {}}, memory);
     std::span<const Passage> left = passages;
     std::vector<Shown> shown;

@@ -25,7 +25,7 @@ BatchWays go_on(const Work& work, std::uint32_t bounce, std::span<const Path> pa
     }
     const auto sample_of = [&](std::size_t i) { return paths[i].sample; };
     BatchWays found{
-        .passages = find_passages(work.scene, work.settings.max_passages, straight, visible_to_light, bounce + 1,
+        .passages = find_passages(work.scene, work.settings.max_path_passages, straight, visible_to_light, bounce + 1,
                                   chosen_by(work.samplers, bounce + 1, never_two, sample_of), work.memory),
         .ways = {}};
     found.ways = ways_on(found.passages, first_hits);
@@ -49,7 +49,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
     const float spread = scene.camera().pixel_spread() * part_of_pixel(work.settings);
     std::vector<Passage> passages;
     if (scene.has_transparency())
-        passages = find_passages(scene, work.settings.max_passages, straight_rays(camera_rays, hits, spread),
+        passages = find_passages(scene, work.settings.max_path_passages, straight_rays(camera_rays, hits, spread),
                                  visible_to_camera, 0,
                                  chosen_by(work.samplers, 0, least_part_of_camera, std::identity()), work.memory);
     std::span<const Passage> left = passages;

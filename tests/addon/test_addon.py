@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from blender_host import Host
 
 
 @pytest.fixture(scope="module")
@@ -13,7 +14,7 @@ def cases(inside: Callable[[str], Any]) -> Any:
     return inside("addon_cases")
 
 
-def test_defaults(cases: Any) -> None:
+def test_defaults(cases: Any, host: Host) -> None:
     assert cases["defaults"] | {"threads": 0} == {
         "integrator": "MONTE_CARLO",
         "samples": 64,
@@ -21,6 +22,7 @@ def test_defaults(cases: Any) -> None:
         "seed": 0,
         "max_bounces": 4,
         "max_passages": 8,
+        "max_path_passages": 9 - (host.version >= (5, 0)),
         "clamp_indirect": 0.0,
         "filter_glossy": 0.0,
         "light_sampling": "JOINT",
@@ -38,7 +40,7 @@ def test_defaults(cases: Any) -> None:
     assert cases["defaults"]["threads"] >= 1
 
 
-def test_settings(cases: Any) -> None:
+def test_settings(cases: Any, host: Host) -> None:
     assert cases["settings"] == {
         "integrator": "ANALYTIC",
         "samples": 7,
@@ -46,6 +48,7 @@ def test_settings(cases: Any) -> None:
         "seed": 3,
         "max_bounces": 0,
         "max_passages": 3,
+        "max_path_passages": 4 - (host.version >= (5, 0)),
         "clamp_indirect": 2.5,
         "filter_glossy": 1.5,
         "light_sampling": "SPTD",

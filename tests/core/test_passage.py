@@ -71,7 +71,7 @@ def test_a_furnace_stays_white() -> None:
     """What is not let through is reflected."""
     scene = stack(4, pivot_core.Material(diffuse=(0.5, 0.5, 0.5), transparency=(0.5, 0.5, 0.5)))
     scene.set_world((1, 1, 1))
-    picture = render_from_above(scene, samples=256, max_bounces=64, max_passages=1000)
+    picture = render_from_above(scene, samples=256, max_bounces=64, max_passages=1000, max_path_passages=1000)
     noise = picture[..., 0].std() / np.sqrt(picture[..., 0].size)
     assert mean(picture)[:3] == pytest.approx(np.ones(3), abs=4 * noise + 1e-5)
 
@@ -82,13 +82,15 @@ def render_from_above(scene: pivot_core.Scene, **settings: object) -> Floats:
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_one_surface_more_is_seen_than_shades_and_then_what_shines(integrator: str) -> None:
-    def world_seen(count: int) -> float:
+def test_so_many_surfaces_are_seen_and_shade_and_then_what_shines_is_seen(integrator: str) -> None:
+    def world_seen(count: int, max_path_passages: int) -> float:
         scene = stack(count, pivot_core.Material(transparency=(1, 1, 1)))
         scene.set_world((1, 1, 1))
-        return seen_from_above(scene, integrator=integrator, samples=4, max_passages=2)[0]
+        settings = {"max_passages": 2, "max_path_passages": max_path_passages}
+        return seen_from_above(scene, integrator=integrator, samples=4, **settings)[0]
 
-    assert [world_seen(count) for count in (2, 3, 4)] == pytest.approx([1, 1, 0])
+    assert [world_seen(count, 3) for count in (2, 3, 4)] == pytest.approx([1, 1, 0])
+    assert [world_seen(count, 2) for count in (2, 3)] == pytest.approx([1, 0])
     free = lit_ground(0, SUN, integrator=integrator)
     shaded = [lit_ground(count, SUN, integrator=integrator, max_passages=2)[0] / free[0] for count in (2, 3)]
     assert shaded == pytest.approx([0.49, 0], rel=1e-3)
@@ -185,5 +187,5 @@ def test_surfaces_of_no_opacity_change_no_fog() -> None:
         scene.add_light("ball", pivot_core.SphereLight((0.5, 0.3, 2.5), 0.3, (5, 5, 5)))
         return seen_from_above(scene, **settings)[:3]
 
-    settings = {"samples": 256, "max_bounces": 2, "max_passages": 100}
+    settings = {"samples": 256, "max_bounces": 2, "max_passages": 100, "max_path_passages": 100}
     assert foggy(3, **settings) == pytest.approx(foggy(0, **settings), rel=0.01)

@@ -51,7 +51,10 @@ def _denoising_data(folder: Path) -> list[str]:
     scene = bpy.context.scene
     scene.pivot.samples = 1
     scene.view_layers[0].cycles.denoising_store_passes = True
-    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):  # from Blender 5.0
+        image.media_type = "MULTI_LAYER_IMAGE"
+    image.file_format = "OPEN_EXR_MULTILAYER"
     scene.render.filepath = str(folder / "data.exr")
     bpy.ops.render.render(write_still=True)
     return [entry.blender_name() for entry in passes.PASSES if entry.switch == "denoising_store_passes"]

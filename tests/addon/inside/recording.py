@@ -101,6 +101,7 @@ class RenderSettings:
     seed: int
     max_bounces: int
     max_passages: int
+    max_path_passages: int
     clamp_indirect: float
     filter_glossy: float
     light_sampling: str
