@@ -155,13 +155,11 @@ class MaterialTable:
         """What the analytic integrator leaves out of a surface."""
         if self._context.depsgraph.scene_eval.pivot.integrator != "ANALYTIC":
             return
-        left_out = []
         if not surface.emission.is_constant:
-            left_out.append("its triangles light others by a mean of each, in grey")
-        if any(not dielectric.transmission.is_always(0) for dielectric in surface.dielectrics):
-            left_out.append("it mirrors light, but none comes through")
-        for what in left_out:
-            self._context.reporter.warn(f"{owner.name}: in the analytic integrator {what}. Fix: use Monte Carlo")
+            self._context.reporter.warn(
+                f"{owner.name}: in the analytic integrator its triangles light others by a mean of each, in grey. "
+                "Fix: use Monte Carlo"
+            )
 
 
 def _volume_input(material: bpy.types.Material) -> Any:

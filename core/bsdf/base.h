@@ -85,6 +85,20 @@ struct BaseOf {
     Mask<T> has_glossy() const { return glossy_probability > T(0); }
 };
 
+/// The base without its GGX lobe.
+template <class T>
+BaseOf<T> without_highlight(BaseOf<T> base) {
+    base.fresnel = {Vec3<T>(T(0)), Vec3<T>(T(0)), Vec3<T>(T(0)), Vec3<T>(T(0)), base.fresnel.ior};
+    base.glossy_probability = T(0);
+    return base;
+}
+
+/// Whether it reflects nothing.
+template <class T>
+Mask<T> is_black(const BaseOf<T>& base) {
+    return !base.has_glossy() && !(max_component(base.diffuse) > T(0));
+}
+
 using LobeFresnel = LobeFresnelOf<float>;
 using Base = BaseOf<float>;
 
@@ -149,6 +163,22 @@ Vec3<T> eval_base(const BaseOf<T>& base, const Vec3<T>& wi_local) {
     const Mask<T> has_glossy = base.has_glossy();
     if (!any(has_glossy)) return diffuse;
     return diffuse + select(has_glossy, eval_glossy(base, wi_local), Vec3<T>(T(0)));
+}
+
+/// A direction from which a facet sends light to wo, and what that light is worth: of facets drawn as wo sees them, the
+/// mean is the lobe's reflection.
+template <class T>
+struct FacetRayOf {
+    Vec3<T> wi_local;
+    Vec3<T> worth;
+};
+
+/// Of the GGX lobe.
+template <class T>
+FacetRayOf<T> facet_ray(const BaseOf<T>& base, const Vec2<T>& u) {
+    const Vec3<T> wi_local = ggx_sample(base.wo_local, base.alpha, base.alpha, u);
+    const T pdf = ggx_pdf_omega(base.wo_local, wi_local, base.alpha, base.alpha);
+    return {wi_local, select(pdf > T(0), eval_glossy(base, wi_local) / max(pdf, tiny<T>), Vec3<T>(T(0)))};
 }
 
 /// Density of sample_base(), both lobes.

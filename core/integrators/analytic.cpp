@@ -7,6 +7,7 @@
 #include "core/integrators/bump_share.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/lobe_points.h"
+#include "core/integrators/look_rays.h"
 #include "core/integrators/shown_surfaces.h"
 #include "core/integrators/specular_occlusion.h"
 #include "core/integrators/virtual_light_shading.h"
@@ -129,6 +130,7 @@ Unhidden unhidden_light(const Scene& scene, const RenderSettings& settings, cons
     if (!scene.has_world()) return light;
     for (std::size_t i = 0; i < batch.count; ++i) {
         light.world[i] = reflect_whole_world(scene, *batch.lanes[i]);
+        if (is_mirror(batch.lanes[i]->surface)) light.world[i].glossy = Rgb(0.0f);
         light.totals[i] += size_of(light.world[i].diffuse) + size_of(light.world[i].glossy);
     }
     return light;
@@ -163,14 +165,15 @@ void add_lamps(const Scene& scene, const RenderSettings& settings, const Analyti
         if (settings.occlusion == Occlusion::bent_cone) apply_bent_cones(lamp, batch, reflection, gathered);
         for (std::size_t i = 0; i < batch.count; ++i) {
             gathered[i].add(reflection.diffuse[i], Method::points_1, reflection.diffuse_error[i]);
-            gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
+            if (k < scene.lamps().size() || !is_mirror(batch.lanes[i]->surface))
+                gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
             gathered[i].shadow_variance += reflection.shadow_variance[i];
         }
     }
 }
 
-void add_virtual_lights(const VirtualReflection& reflection, const Base& surface, bool has_bounced,
-                        Gathered& gathered) {
+void add_virtual_lights(VirtualReflection reflection, const Base& surface, bool has_bounced, Gathered& gathered) {
+    if (is_mirror(surface)) reflection.glossy = {};
     const Rgb light = reflection.radiance(surface);
     gathered.add(light, Method::virtual_lights, reflection.error);
     gathered.shadow_variance += sqr(size_of(light) * reflection.shadow_deviation);
@@ -204,53 +207,55 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Shado
     }
 }
 
-/// A hit surface, for the sample of this index, and what its light is worth there.
-struct HitSurface {
-    std::size_t sample;
-    Rgb worth;
-    RayHit hit;
-    SurfacePoint point;
-    Surface surface;
-};
-
 /// What has closed forms, and of which surface: first all bases, so that neighbours stay neighbours, then what further
 /// lobes are.
 struct Parts {
     std::vector<ShadingPoint> shading;
     std::vector<std::size_t> surface;
 };
-Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const HitSurface> hits) {
+Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const LookedAt> hits) {
     Parts parts;
     const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base) {
+        if (is_black(base)) return;
         parts.shading.push_back({point, base, {}});
         if (settings.occlusion == Occlusion::bent_cone)
-            parts.shading.back().bent_cone = scene.bent_cone(hits[of].hit, point);
+            parts.shading.back().bent_cone = scene.bent_cone(hits[of].arrival.hit, point);
         parts.surface.push_back(of);
     };
     for (std::size_t i = 0; i < hits.size(); ++i) add(i, hits[i].point, hits[i].surface);
     for (std::size_t i = 0; i < hits.size(); ++i)
         for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-            if constexpr (L::has_closed_form)
-                add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
+            if constexpr (L::has_closed_form) {
+                if (!is_seen_from_within(lobe))
+                    add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
+            }
         });
     return parts;
 }
 
 /// Adds what the parts reflect of light that bounced.
 void add_bounced(const Scene& scene, const RenderSettings& settings, const VirtualLights& bounced,
-                 std::uint32_t sample_index, std::span<const HitSurface> hits, const Parts& parts,
+                 std::uint32_t sample_index, std::span<const LookedAt> hits, const Parts& parts,
                  std::span<const std::uint32_t> pixels, SharedReflections& shared, std::span<Gathered> light) {
+    Parts lit;
     std::vector<std::uint32_t> pixel_of;
-    for (const std::size_t of : parts.surface) pixel_of.push_back(pixels[hits[of].sample]);
+    for (std::size_t i = 0; i < parts.shading.size(); ++i) {
+        ShadingPoint part = parts.shading[i];
+        if (is_mirror(part.surface)) part.surface = without_highlight(part.surface);
+        if (is_black(part.surface)) continue;
+        lit.shading.push_back(part);
+        lit.surface.push_back(parts.surface[i]);
+        pixel_of.push_back(pixels[hits[parts.surface[i]].sample]);
+    }
     const auto reflections =
-        shared.reflect(scene, settings, bounced, parts.shading, pixel_of, sample_index / bounced_samples_shared);
+        shared.reflect(scene, settings, bounced, lit.shading, pixel_of, sample_index / bounced_samples_shared);
     for (std::size_t i = 0; i < reflections.size(); ++i)
-        add_virtual_lights(reflections[i], parts.shading[i].surface, true, light[parts.surface[i]]);
+        add_virtual_lights(reflections[i], lit.shading[i].surface, true, light[lit.surface[i]]);
 }
 
 /// Adds what a surface's lobes without closed forms reflect.
 void add_lobe_points(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                     const ShadowPoints& points, const HitSurface& hit, Gathered& gathered) {
+                     const ShadowPoints& points, const LookedAt& hit, Gathered& gathered) {
     for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
         if constexpr (!L::has_closed_form) {
             Surface alone(make_base(BaseMaterialOf<float>{}, hit.surface.wo_local));
@@ -267,65 +272,11 @@ void add_lobe_points(const Scene& scene, const RenderSettings& settings, const A
     });
 }
 
-/// Appends the surfaces of a batch of those shown, and tells the passes of them. batch_of: their arrivals.
-void see(const Scene& scene, std::span<const Arrival* const> batch_of, std::span<const Shown> shown,
-         ProgramMemory& memory, std::vector<HitSurface>& surfaces, std::span<Sample> samples) {
-    const ArrivalBatch batch = make_arrivals(scene, batch_of, 0, memory);
-    const auto points = unpack<SurfacePointOf>(batch.point);
-    SurfaceOf<Batch> surface = make_surface(batch.material, batch.point.wo_local);
-    surface.bump = batch.bump;
-    const auto seen = unpack<SurfaceOf>(surface);
-    const auto materials = unpack<MaterialOf>(batch.material);
-    for (std::size_t i = 0; i < batch_of.size(); ++i) {
-        Sample& sample = samples[shown[i].sample];
-        const Rgb emitted = shown[i].worth * materials[i].emission;
-        sample.radiance += emitted;
-        sample.emission += emitted;
-        if (shown[i].is_told) {
-            sample.normal = points[i].frame.z;
-            sample.albedo = diffuse_color(seen[i]);
-        }
-        if (!shown[i].only_shines)
-            surfaces.push_back({shown[i].sample, shown[i].worth, shown[i].arrival.hit, points[i], seen[i]});
-    }
-}
-
-}  // namespace
-
-void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                    std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
-                    SharedReflections& shared, std::span<Sample> samples) {
-    std::vector<std::optional<RayHit>> hits(camera_rays.size());
-    scene.intersect(camera_rays, visible_to_camera, hits);
-    ProgramMemory memory;
-    const ShadowPoints points(settings, sample_index);
-    std::vector<FogLight> fog;  // of each sample, and what media let through; empty: there are none
-    std::vector<Rgb> through;
-    if (!scene.media().is_empty()) {
-        MediaRay media_ray(scene.media());
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            Ray ray = camera_rays[i];
-            if (hits[i]) ray.far_m = hits[i]->distance_m;
-            media_ray.follow(ray, nullptr);
-            through.push_back(media_ray.through());
-            fog.push_back(scatter_analytic(scene, settings, points, media_ray));
-        }
-    }
-    const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
-    std::vector<Shown> shown = shown_surfaces(scene, settings, camera_rays, hits, spread, memory, samples);
-    // A program runs for one material.
-    std::ranges::stable_sort(shown, {}, [&](const Shown& s) {
-        return scene.shaders()[s.arrival.material].is_constant() ? 0 : s.arrival.material + 1;
-    });
-    std::vector<HitSurface> surfaces;
-    std::vector<const Arrival*> ordered;
-    for (const Shown& s : shown) ordered.push_back(&s.arrival);
-    for (std::size_t first = 0; first < ordered.size();) {
-        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
-        const std::size_t count = batch_count(scene, rest);
-        see(scene, rest.first(count), std::span<const Shown>(shown).subspan(first, count), memory, surfaces, samples);
-        first += count;
-    }
+/// What lights send to the viewer by way of each surface.
+std::vector<Gathered> gather_light(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                                   const ShadowPoints& points, std::span<const LookedAt> surfaces,
+                                   std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
+                                   SharedReflections& shared) {
     const Parts parts = parts_of(scene, settings, surfaces);
     const auto& [shading, surface_of] = parts;
     std::vector<Gathered> light(surfaces.size());
@@ -340,32 +291,129 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         add_bounced(scene, settings, lights.bounced, sample_index, surfaces, parts, pixels, shared, light);
     for (std::size_t i = 0; i < surfaces.size(); ++i)
         if (surfaces[i].surface.has_lobes()) add_lobe_points(scene, settings, lights, points, surfaces[i], light[i]);
-    std::vector<float> size(samples.size(), 0.0f);
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        Sample& sample = samples[surfaces[i].sample];
-        const Gathered& gathered = light[i];
-        const Rgb& worth = surfaces[i].worth;
-        const float weight = mean_component(worth);
-        sample.radiance += worth * gathered.radiance;
-        sample.indirect += worth * gathered.indirect;
-        sample.method += weight * gathered.method;
-        size[surfaces[i].sample] += weight * gathered.size;
-        sample.error += weight * gathered.error;
-        sample.shadow_variance += sqr(weight) * gathered.shadow_variance;
+    return light;
+}
+
+/// Appends the surfaces of a batch of those shown, and tells the passes of them. batch_of: their arrivals.
+void see(const Scene& scene, std::uint32_t bounce, std::span<const Arrival* const> batch_of,
+         std::span<const Shown> shown, ProgramMemory& memory, std::vector<LookedAt>& surfaces,
+         std::span<Sample> samples) {
+    const ArrivalBatch batch = make_arrivals(scene, batch_of, bounce, memory);
+    const auto points = unpack<SurfacePointOf>(batch.point);
+    SurfaceOf<Batch> surface = make_surface(batch.material, batch.point.wo_local);
+    surface.bump = batch.bump;
+    const auto seen = unpack<SurfaceOf>(surface);
+    const auto materials = unpack<MaterialOf>(batch.material);
+    for (std::size_t i = 0; i < batch_of.size(); ++i) {
+        const Shown& one = shown[i];
+        Sample& sample = samples[one.sample];
+        const Rgb emitted = one.worth * materials[i].emission;
+        add_light(emitted, one.is_spread, sample);
+        if (bounce == 0) sample.emission += emitted;
+        if (one.is_told) {
+            sample.normal = points[i].frame.z;
+            sample.albedo = diffuse_color(seen[i]);
+        }
+        if (!one.only_shines)
+            surfaces.push_back({one.arrival, one.sample, one.worth, one.spread, one.is_spread, points[i], seen[i]});
+    }
+}
+
+/// The surfaces that rays show.
+std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
+                              std::span<const LookRay> rays, std::span<const std::optional<RayHit>> hits,
+                              ProgramMemory& memory, std::span<Sample> samples) {
+    std::vector<Shown> shown = shown_surfaces(scene, settings, bounce, rays, hits, memory, samples);
+    if (bounce > settings.max_bounces)
+        for (Shown& one : shown) one.only_shines = true;
+    // A program runs for one material.
+    std::ranges::stable_sort(shown, {}, [&](const Shown& s) {
+        return scene.shaders()[s.arrival.material].is_constant() ? 0 : s.arrival.material + 1;
+    });
+    std::vector<LookedAt> surfaces;
+    surfaces.reserve(shown.size());
+    std::vector<const Arrival*> ordered;
+    for (const Shown& s : shown) ordered.push_back(&s.arrival);
+    for (std::size_t first = 0; first < ordered.size();) {
+        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
+        const std::size_t count = batch_count(scene, rest);
+        see(scene, bounce, rest.first(count), std::span<const Shown>(shown).subspan(first, count), memory, surfaces,
+            samples);
+        first += count;
+    }
+    return surfaces;
+}
+
+/// Adds what media bring along rays, and takes from what the rays are worth behind them.
+void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, const ShadowPoints& points,
+                 std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays, std::span<Sample> samples) {
+    MediaRay media_ray(scene.media());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        LookRay& look = rays[i];
+        Ray ray = look.ray;
+        if (hits[i]) ray.far_m = hits[i]->distance_m;
+        media_ray.follow(ray, nullptr);
+        const FogLight fog = scatter_analytic(scene, settings, points, media_ray);
+        Sample& sample = samples[look.sample];
+        const Rgb scattered = look.worth * fog.scattered, emitted = look.worth * fog.emitted;
+        const float weight = mean_component(look.worth);
+        add_light(scattered + emitted, look.is_spread, sample);
+        if (bounce == 0) {
+            sample.emission += emitted;
+            sample.volume_direct += scattered;
+        } else {
+            sample.indirect += scattered;
+        }
+        sample.error += weight * fog.error;
+        sample.shadow_variance += sqr(weight) * fog.shadow_variance;
+        look.worth *= media_ray.through();
+    }
+}
+
+}  // namespace
+
+void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                    std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
+                    SharedReflections& shared, std::span<Sample> samples) {
+    ProgramMemory memory;
+    const ShadowPoints points(settings, sample_index);
+    std::ranges::fill(samples, Sample{});
+    std::vector<float> size(samples.size(), 0.0f);  // of the light of which `method` is the sum
+    std::vector<LookRay> rays;
+    rays.reserve(camera_rays.size());
+    const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
+    for (std::size_t i = 0; i < camera_rays.size(); ++i)
+        rays.push_back({.ray = camera_rays[i], .sample = i, .spread = spread});
+    for (std::uint32_t bounce = 0; !rays.empty(); ++bounce) {
+        std::vector<std::optional<RayHit>> hits(rays.size());
+        std::vector<Ray> bare;
+        for (const LookRay& look : rays) bare.push_back(look.ray);
+        scene.intersect(bare, bounce == 0 ? visible_to_camera : visible_to_light, hits);
+        if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples);
+        const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples);
+        const std::vector<Gathered> light =
+            gather_light(scene, settings, lights, points, surfaces, pixels, sample_index, shared);
+        rays.clear();
+        const Vec2f u = points.facet_point(bounce);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            const LookedAt& surface = surfaces[i];
+            const Gathered& gathered = light[i];
+            Sample& sample = samples[surface.sample];
+            const float weight = mean_component(surface.worth);
+            const Rgb reflected = surface.worth * gathered.radiance;
+            add_light(reflected, surface.is_spread, sample);
+            sample.indirect += bounce == 0 ? surface.worth * gathered.indirect : reflected;
+            if (bounce == 0) {
+                sample.method += weight * gathered.method;
+                size[surface.sample] += weight * gathered.size;
+            }
+            sample.error += weight * gathered.error;
+            sample.shadow_variance += sqr(weight) * gathered.shadow_variance;
+            look_on(surface, u, rays);
+        }
     }
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i].method = size[i] > 0.0f ? samples[i].method / size[i] : Rgb(0.0f);
-    for (std::size_t i = 0; i < fog.size(); ++i) {
-        Sample& sample = samples[i];
-        const float left = mean_component(through[i]);
-        sample.radiance = sample.radiance * through[i] + fog[i].scattered + fog[i].emitted;
-        sample.emission = sample.emission * through[i] + fog[i].emitted;
-        sample.indirect = sample.indirect * through[i];
-        sample.volume_direct = fog[i].scattered;
-        sample.error = sample.error * left + fog[i].error;
-        sample.shadow_variance = sample.shadow_variance * sqr(left) + fog[i].shadow_variance;
-        if (!hits[i] && settings.transparent_film) sample.alpha = 1.0f - std::min(left, 1.0f);
-    }
 }
 
 }  // namespace pivot

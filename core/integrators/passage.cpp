@@ -198,6 +198,12 @@ Vec3b light_through(const Scene& scene, const RayOf<Batch>& rays, const ShadowPa
 
 void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,
                  ProgramMemory& memory) {
+    if (!scene.has_transparency()) {
+        std::vector<std::uint8_t> hidden(rays.size());
+        scene.occluded(rays, hidden);
+        for (std::size_t i = 0; i < rays.size(); ++i) left[i] = Rgb(hidden[i] ? 0.0f : 1.0f);
+        return;
+    }
     constexpr Ray no_ray{.origin = Vec3f(0.0f), .direction = Vec3f(0.0f), .near_m = 0.0f, .far_m = 0.0f};
     for (std::size_t first = 0; first < rays.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, rays.size() - first);
@@ -205,11 +211,8 @@ void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const
         for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = i < count ? &rays[first + i] : &no_ray;
         RayOf<Batch> batch = pack<RayOf>(lanes);
         const Batch visible = scene.visibility(batch), zero(0.0f);
-        Vec3b light(visible);
-        if (scene.has_transparency()) {
-            batch.far_m = select(visible > zero, batch.far_m, zero);
-            light = light_through(scene, batch, {max_passages, 0, WordBatch(camera_ray)}, memory) * visible;
-        }
+        batch.far_m = select(visible > zero, batch.far_m, zero);
+        const Vec3b light = light_through(scene, batch, {max_passages, 0, WordBatch(camera_ray)}, memory) * visible;
         const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
         for (std::size_t i = 0; i < count; ++i) left[first + i] = {r[i], g[i], b[i]};
     }

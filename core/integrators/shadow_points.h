@@ -28,6 +28,7 @@ enum class PointSet : std::uint32_t {
     lobe_world = 7,
     fog_place = 8,
     fog_lamp = 9,
+    first_facet = 10,  ///< and one for each bounce
 };
 
 /// The share of a light that is seen, so far.
@@ -149,6 +150,11 @@ class ShadowPoints {
     /// Point k of `count` points of a set.
     Vec2f point(PointSet set, std::uint32_t k, std::uint32_t count) const {
         return Sampler{0u, sample_index_ * count + k}.point(static_cast<std::uint32_t>(set));
+    }
+
+    /// Which facets the sample's rays go on by after so many bounces.
+    Vec2f facet_point(std::uint32_t bounce) const {
+        return Sampler{0u, sample_index_}.point(static_cast<std::uint32_t>(PointSet::first_facet) + bounce);
     }
 
    private:

@@ -1,35 +1,69 @@
 #include "core/integrators/shown_surfaces.h"
 
 namespace pivot {
+namespace {
 
-std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                                  std::span<const std::optional<RayHit>> hits, float spread, ProgramMemory& memory,
-                                  std::span<Sample> samples) {
+std::vector<Passage> passages_of(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
+                                 std::span<const LookRay> rays, std::span<const std::optional<RayHit>> hits,
+                                 ProgramMemory& memory) {
+    std::vector<StraightRay> straight;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        straight.push_back({rays[i].ray, hits[i], rays[i].ray_kind, rays[i].footprint_m, rays[i].spread});
+    return find_passages(scene, settings.max_path_passages, straight,
+                         bounce == 0 ? visible_to_camera : visible_to_light, bounce, {.least_part = 0.0f, .u = {}},
+                         memory);
+}
+
+/// What a part of a ray meets of lamps.
+Rgb lamps_met(const Scene& scene, const LookRay& ray, float from_m, float to_m) {
+    Rgb radiance(0.0f);
+    if (!ray.meets_lamps) return radiance;
+    for (const Light& lamp : scene.lamps()) {
+        const auto place = intersect_light(lamp, ray.ray.origin, ray.ray.direction);
+        if (place && place->distance_m >= from_m && !(place->distance_m > to_m)) radiance += place->radiance;
+    }
+    return radiance;
+}
+
+}  // namespace
+
+std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
+                                  std::span<const LookRay> rays, std::span<const std::optional<RayHit>> hits,
+                                  ProgramMemory& memory, std::span<Sample> samples) {
     std::vector<Passage> passages;
-    if (scene.has_transparency())
-        passages = find_passages(scene, settings.max_path_passages, straight_rays(camera_rays, hits, spread),
-                                 visible_to_camera, 0, {.least_part = 0.0f, .u = {}}, memory);
+    if (scene.has_transparency()) passages = passages_of(scene, settings, bounce, rays, hits, memory);
     std::span<const Passage> left = passages;
     std::vector<Shown> shown;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        Sample& sample = samples[i] = {};
-        Shown one{.arrival = {.direction = camera_rays[i].direction,
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const LookRay& ray = rays[i];
+        Sample& sample = samples[ray.sample];
+        Shown one{.arrival = {.direction = ray.ray.direction,
                               .hit = {},
                               .material = 0,
                               .footprint_m = 0.0f,
-                              .ray_kind = camera_ray},
-                  .sample = i};
+                              .ray_kind = ray.ray_kind},
+                  .sample = ray.sample,
+                  .worth = ray.worth,
+                  .spread = ray.spread,
+                  .is_spread = ray.is_spread,
+                  .is_told = bounce == 0};
         const auto show = [&](const RayHit& hit, std::uint32_t material) {
             one.arrival.hit = hit;
             one.arrival.material = material;
-            one.arrival.footprint_m = spread * hit.distance_m;
+            one.arrival.footprint_m = ray.footprint_m + ray.spread * hit.distance_m;
             shown.push_back(one);
+        };
+        float from_m = 0.0f;
+        const auto cross_to = [&](float distance_m) {
+            add_light(one.worth * lamps_met(scene, ray, from_m, distance_m), ray.is_spread, sample);
+            from_m = distance_m;
         };
         bool ends = false;
         if (scene.has_transparency()) {
             const std::span<const Passage> way = take_passages(left, i);
-            const Passage* told = told_of(way);
+            const Passage* told = bounce == 0 ? told_of(way) : nullptr;
             for (const Passage& passage : way) {
+                cross_to(passage.hit.distance_m);
                 one.is_told = &passage == told;
                 one.arrival.ray_kind = passage.ray_kind;
                 one.only_shines = passage.only_shines;
@@ -38,15 +72,18 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
                 ends = passage.ends();
             }
         } else if (hits[i]) {
+            cross_to(hits[i]->distance_m);
             show(*hits[i], scene.material_of(*hits[i]));
             ends = true;
         }
         if (ends) continue;
-        if (settings.transparent_film)
+        cross_to(std::numeric_limits<float>::infinity());
+        if (bounce == 0 && settings.transparent_film)
             sample.alpha = 1.0f - std::min(mean_component(one.worth), 1.0f);
         else
-            sample.radiance = one.worth * world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0,
-                                                         memory.registers);
+            add_light(one.worth *
+                          world_radiance(scene.world_view(), ray.ray.direction, ray.ray_kind, bounce, memory.registers),
+                      ray.is_spread, sample);
     }
     return shown;
 }

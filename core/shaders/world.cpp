@@ -42,7 +42,7 @@ Vec3b world_radiance(const WorldView& world, const Vec3b& directions, const Word
     return run(world, {directions, directions, directions}, ray_kind, bounce, registers);
 }
 
-Rgb world_radiance(const WorldView& world, const Vec3f& direction, RayKind ray_kind, std::uint32_t bounce,
+Rgb world_radiance(const WorldView& world, const Vec3f& direction, std::uint32_t ray_kind, std::uint32_t bounce,
                    Registers& registers) {
     if (world.shader.is_constant()) return world.shader.constants.emission;
     const Vec3b radiance = world_radiance(world, broadcast(direction), WordBatch(ray_kind), bounce, registers);

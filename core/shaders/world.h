@@ -17,7 +17,7 @@ Vec3b world_radiance(const WorldView& world, const Vec3b& directions, const Word
                      Registers& registers);
 
 /// One direction's.
-Rgb world_radiance(const WorldView& world, const Vec3f& direction, RayKind ray_kind, std::uint32_t bounce,
+Rgb world_radiance(const WorldView& world, const Vec3f& direction, std::uint32_t ray_kind, std::uint32_t bounce,
                    Registers& registers);
 
 /// What comes from all directions: the mean, and where it comes from. Dark where it is the same all around: BSDF

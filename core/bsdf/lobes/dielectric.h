@@ -93,14 +93,19 @@ struct Dielectric {
     }
     Vec3<T> sample(const Vec3<T>& wo_local, T u_lobe, const Vec2<T>& u) const {
         const Vec3<T> h = ggx_sample_normal(wo_local, alpha, alpha, u);
-        const T cos_oh = dot(wo_local, h), inverse_eta = T(1) / eta;
-        const T cos_ih = safe_sqrt(T(1) - (T(1) - sqr(cos_oh)) * sqr(inverse_eta));
-        Vec3<T> above = T(2) * cos_oh * h - wo_local;
-        Vec3<T> below = (inverse_eta * cos_oh - cos_ih) * h - inverse_eta * wo_local;  // [Walter07 (40)]
-        // What a microfacet sends to the side where its part of the lobe is 0 lies at z = 0, where both are.
-        above.z = max(above.z, T(0));
-        below.z = min(below.z, T(0));
-        return select(u_lobe < split_at(cos_oh).reflects_probability(), above, below);
+        const auto [above, below] = directions_by(h, wo_local);
+        return select(u_lobe < split_at(dot(wo_local, h)).reflects_probability(), above, below);
+    }
+    /// Where one facet sends light to wo from: mirrored, and from the other side.
+    std::array<FacetRayOf<T>, 2> facet_rays(const Vec3<T>& wo_local, const Vec2<T>& u) const {
+        const Vec3<T> h = ggx_sample_normal(wo_local, alpha, alpha, u);
+        const auto [above, below] = directions_by(h, wo_local);
+        const Split split = split_at(dot(wo_local, h));
+        const T g1 = ggx_g1(wo_local, alpha, alpha);
+        const auto shadowing = [&](const Vec3<T>& wi_local) { return ggx_g2(wo_local, wi_local, alpha, alpha) / g1; };
+        const Vec3<T> none(T(0));
+        return {FacetRayOf<T>{above, select(above.z > T(0), split.reflected * shadowing(above), none)},
+                FacetRayOf<T>{below, select(below.z < T(0), split.refracted * shadowing(below), none)}};
     }
     Vec3<T> albedo(const Vec3<T>&) const { return reflected + refracted; }
     Vec3<T> diffuse() const { return Vec3<T>(T(0)); }
@@ -152,6 +157,18 @@ struct Dielectric {
         const T refracts = sqr(eta * inverse_length) * cos_oh * abs(cos_ih);  // [Walter07 (17)]
         const T density = ggx_ndf(h, alpha, alpha) * select(is_reflected, T(0.25f), refracts) / wo_local.z;
         return {cos_oh, density, is_reflected, cos_oh > T(0) && wi_local.z * cos_ih > T(0)};
+    }
+
+    /// Where a microfacet mirrors wo, and where it refracts it. What it sends to the side where its part of the lobe is
+    /// 0 lies at z = 0, where both are.
+    std::array<Vec3<T>, 2> directions_by(const Vec3<T>& h, const Vec3<T>& wo_local) const {
+        const T cos_oh = dot(wo_local, h), inverse_eta = T(1) / eta;
+        const T cos_ih = safe_sqrt(T(1) - (T(1) - sqr(cos_oh)) * sqr(inverse_eta));
+        Vec3<T> above = T(2) * cos_oh * h - wo_local;
+        Vec3<T> below = (inverse_eta * cos_oh - cos_ih) * h - inverse_eta * wo_local;  // [Walter07 (40)]
+        above.z = max(above.z, T(0));
+        below.z = min(below.z, T(0));
+        return {above, below};
     }
 
     /// What a microfacet does with the light.

@@ -92,9 +92,6 @@ def _reports() -> Any:
     glow.node_tree.links.new(place, emission.inputs["Strength"])
     parts.quad("panel", material=glow)
     parts.quad("second panel", material=bpy.data.materials["glow"])
-    window, node = parts.shaded("window", "ShaderNodeBsdfGlass")
-    node.distribution = "GGX"
-    parts.quad("pane", material=window)
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     bpy.context.scene.view_layers.new("second")
     bpy.context.scene.frame_end = 2
