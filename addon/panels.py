@@ -9,6 +9,7 @@ import bpy
 from . import denoise
 from .chart import operators as chart_operators
 from .engine import PivotRenderEngine
+from .export.optics import panorama_names, panorama_settings
 from .passes import PASSES
 
 _ENGINE = PivotRenderEngine.bl_idname
@@ -38,6 +39,7 @@ _BUILT_IN = (
     "DATA_PT_preview",
     "DATA_PT_lens",
     "DATA_PT_camera",
+    "DATA_PT_camera_dof*",
     "DATA_PT_camera_display*",
     "DATA_PT_camera_safe_areas*",
     "DATA_PT_camera_background_image",
@@ -196,6 +198,25 @@ class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
         _columns(self).prop(context.material.pivot, "phase")
 
 
+class PIVOT_CAMERA_PT_panorama(PivotPanel, bpy.types.Panel):
+    """Blender's own Lens panel shows these in Cycles alone."""
+
+    bl_label = "Panorama"
+    bl_context = "data"
+    bl_parent_id = "DATA_PT_lens"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.camera) and context.camera.type == "PANO" and super().poll(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _columns(self)
+        settings = panorama_settings(context.camera)
+        layout.prop(settings, "panorama_type", text="Type")
+        for name in panorama_names(settings.panorama_type):
+            layout.prop(settings, name)
+
+
 class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
     bl_label = "Light"
     bl_context = "data"
@@ -244,6 +265,7 @@ _CLASSES = (
     PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
     PIVOT_MATERIAL_PT_fog,
+    PIVOT_CAMERA_PT_panorama,
     PIVOT_LIGHT_PT_light,
 )
 

@@ -127,9 +127,7 @@ class Viewport:
         self._stop()
         view, settings = self._view, self._settings
         width, height = (max(1, side // pixel_px) for side in self._size)
-        self._scene.set_camera(
-            view.camera_to_world, view.view_plane, width, height, (0, 0, width, height), *view.clip_m
-        )
+        self._scene.set_camera(view.camera_to_world, width=width, height=height, **view.optics.arguments(self._core))
         if pixel_px > 1:
             settings = settings | {"samples": min(settings["samples"], _COARSE_SAMPLES)}
         self._session = self._core.Session(self._scene, render_settings(self._core, scene, settings))

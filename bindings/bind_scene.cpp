@@ -129,7 +129,8 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
-                int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m) {
+                int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m,
+                const optional<Projection>& projection, const optional<Lens>& lens) {
     require_shape(camera_to_world, "camera: camera_to_world", {4, 4});
     Camera camera;
     camera.world_from_camera = to_transform(camera_to_world.data());
@@ -140,6 +141,8 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
         window ? Window{(*window)[0], (*window)[1], (*window)[2], (*window)[3]} : Window{0, 0, width, height};
     camera.clip_start_m = clip_start_m;
     camera.clip_end_m = clip_end_m;
+    camera.projection = projection.value_or(Perspective{});
+    camera.lens = lens.value_or(Lens{});
     scene.set_camera(camera);
 }
 
@@ -259,10 +262,10 @@ void register_scene(py::module_& module) {
             py::arg("medium"), "A Medium that fills all space, or None.")
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
-             py::arg("clip_end_m") = infinity,
+             py::arg("clip_end_m") = infinity, py::arg("projection") = py::none(), py::arg("lens") = py::none(),
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
-             "frame "
-             "at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.");
+             "frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, "
+             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.");
 }
 
 }  // namespace pivot::bindings

@@ -20,6 +20,7 @@ constexpr std::uint32_t max_samples_per_pass = 8, max_samples_per_sparse_pass = 
 constexpr std::size_t max_bad_samples = 8;
 constexpr std::uint32_t places_when_adaptive = 16;
 constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
+constexpr std::uint32_t lens_dimension = 0;       // of samplers: the integrators leave it
 
 /// The squares from which samples reach a window's pixels, in tiles. Tiles of one colour, four in all, are a tile
 /// apart, and as wide as two reaches: their samples reach different pixels.
@@ -341,6 +342,8 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
 std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
+    const bool is_analytic = settings_.integrator == Integrator::analytic, has_lens = camera.lens.radius_m > 0.0f;
+    const std::uint32_t seed = is_analytic ? 0u : round.seed;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> indices;
     std::vector<Sampler> samplers;
@@ -355,16 +358,17 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         const std::size_t count = count_of(round, pass, square);
         const std::vector<Vec2f>& offsets = pass.places_of(frame_x, frame_y).offsets;
         for (std::size_t k = 0; k < count; ++k) {
-            rays.push_back(camera.ray(center + offsets[k]));
             pixels.push_back(static_cast<std::uint32_t>(x - x0));
             const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
             indices.push_back(index);
-            samplers.push_back(pixel_sampler(column, line, round.seed, pass.log2_samples, index));
+            samplers.push_back(pixel_sampler(column, line, seed, pass.log2_samples, index));
+            rays.push_back(has_lens ? camera.ray(center + offsets[k], samplers.back().point(lens_dimension))
+                                    : camera.ray(center + offsets[k]));
         }
     }
     std::vector<Sample> samples(rays.size());
     if (rays.empty()) return samples;
-    if (settings_.integrator == Integrator::analytic) {
+    if (is_analytic) {
         shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {
         trace_paths(*scene_, settings_, rays, samplers, samples);
@@ -374,6 +378,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     for (int x = x0; x < x1; ++x) {
         const std::size_t square = first_square + static_cast<std::size_t>(x - x0);
         for (const std::size_t end = at + count_of(round, pass, square); at < end; ++at) {
+            if (!(rays[at].far_m > 0.0f)) samples[at] = {};  // the lens sees nothing there
             if (!is_finite(samples[at])) {
                 report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
                 samples[at] = {.alpha = 0.0f};

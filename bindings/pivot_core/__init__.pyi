@@ -17,12 +17,22 @@ __all__: list[str] = [
     "shading",
     "tables",
     "AreaLight",
+    "CentralCylindrical",
+    "CubeMapFace",
+    "Equirectangular",
+    "FisheyeEquidistant",
+    "FisheyeEquisolid",
+    "FisheyePolynomial",
     "Image",
     "LOBES",
     "LOBES_WITH_NDF",
+    "Lens",
     "MAX_LOBES",
     "Material",
     "Medium",
+    "MirrorBall",
+    "Orthographic",
+    "Perspective",
     "Program",
     "RenderSettings",
     "Scene",
@@ -372,6 +382,103 @@ class Shader:
         varying: by the name of Material's argument, the register of each number, -1 for one that is constant; 'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's own; 'tangent': which way x lies of pictures of microfacets, world space.
         """
 
+class Perspective:
+    """
+    Places are those of the plane at z = -1 in camera space.
+    """
+    def __init__(self) -> None: ...
+
+class Orthographic:
+    """
+    Places are x and y of camera space, in m.
+    """
+    def __init__(self) -> None: ...
+
+class Equirectangular:
+    """
+    Longitude, to the right of the camera's axis, and latitude (from, to) over the unit square, in radians.
+    """
+    def __init__(
+        self,
+        longitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+        latitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class CentralCylindrical:
+    """
+    Longitude in radians, and height over the radius (from, to) over the unit square.
+    """
+    def __init__(
+        self,
+        longitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+        height: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"],
+    ) -> None: ...
+
+class FisheyeEquidistant:
+    """
+    The angle from the axis, even over the disk in the unit square.
+    """
+    def __init__(self, fov_rad: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class FisheyeEquisolid:
+    """
+    Solid angle around the axis, even over a sensor (width, height).
+    """
+    def __init__(
+        self,
+        lens_mm: typing.SupportsFloat | typing.SupportsIndex,
+        fov_rad: typing.SupportsFloat | typing.SupportsIndex,
+        sensor_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class FisheyePolynomial:
+    """
+    The angle from the axis, its sign turned, as a polynomial of the radius on a sensor (width, height): radians per mm^k.
+    """
+    def __init__(
+        self,
+        coefficients: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(5)"
+        ],
+        fov_rad: typing.SupportsFloat | typing.SupportsIndex,
+        sensor_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class CubeMapFace:
+    """
+    A quarter turn each way, even in both angles.
+    """
+    def __init__(self) -> None: ...
+
+class MirrorBall:
+    """
+    What a ball of mirror shows from afar.
+    """
+    def __init__(self) -> None: ...
+
+class Lens:
+    """
+    A thin lens in focus at a distance; blades: sides of its stop, below 3 it is round; ratio: how much narrower it is along x.
+    """
+    def __init__(
+        self,
+        radius_m: typing.SupportsFloat | typing.SupportsIndex,
+        focus_m: typing.SupportsFloat | typing.SupportsIndex,
+        blades: typing.SupportsInt | typing.SupportsIndex = 0,
+        rotation_rad: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+
 class SphereLight:
     """
     A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk turned to each point it lights instead, Blender's soft falloff.
@@ -601,9 +708,20 @@ class Scene:
         | None = None,
         clip_start_m: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         clip_end_m: typing.SupportsFloat | typing.SupportsIndex = ...,
+        projection: Perspective
+        | Orthographic
+        | Equirectangular
+        | CentralCylindrical
+        | FisheyeEquidistant
+        | FisheyeEquisolid
+        | FisheyePolynomial
+        | CubeMapFace
+        | MirrorBall
+        | None = None,
+        lens: Lens | None = None,
     ) -> None:
         """
-        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.
+        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.
         """
     def set_instance_materials(
         self,

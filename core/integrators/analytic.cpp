@@ -311,8 +311,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
             fog.push_back(scatter_analytic(scene, settings, points, media_ray));
         }
     }
-    const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
-    std::vector<Shown> shown = shown_surfaces(scene, settings, camera_rays, hits, spread, memory, samples);
+    const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(settings);
+    std::vector<Shown> shown = shown_surfaces(scene, settings, camera_rays, hits, width, memory, samples);
     // A program runs for one material.
     std::ranges::stable_sort(shown, {}, [&](const Shown& s) {
         return scene.shaders()[s.arrival.material].is_constant() ? 0 : s.arrival.material + 1;

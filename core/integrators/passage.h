@@ -33,9 +33,10 @@ struct StraightRay {
 };
 
 inline std::vector<StraightRay> straight_rays(std::span<const Ray> camera_rays,
-                                              std::span<const std::optional<RayHit>> hits, float spread) {
+                                              std::span<const std::optional<RayHit>> hits, const PixelWidth& width) {
     std::vector<StraightRay> rays;
-    for (std::size_t i = 0; i < hits.size(); ++i) rays.push_back({camera_rays[i], hits[i], camera_ray, 0.0f, spread});
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        rays.push_back({camera_rays[i], hits[i], camera_ray, width.at(0.0f), width.per_m});
     return rays;
 }
 

@@ -3,11 +3,11 @@
 namespace pivot {
 
 std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                                  std::span<const std::optional<RayHit>> hits, float spread, ProgramMemory& memory,
-                                  std::span<Sample> samples) {
+                                  std::span<const std::optional<RayHit>> hits, const PixelWidth& width,
+                                  ProgramMemory& memory, std::span<Sample> samples) {
     std::vector<Passage> passages;
     if (scene.has_transparency())
-        passages = find_passages(scene, settings.max_passages, straight_rays(camera_rays, hits, spread),
+        passages = find_passages(scene, settings.max_passages, straight_rays(camera_rays, hits, width),
                                  visible_to_camera, 0, {.least_part = 0.0f, .u = {}}, memory);
     std::span<const Passage> left = passages;
     std::vector<Shown> shown;
@@ -16,13 +16,13 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
         Shown one{.arrival = {.direction = camera_rays[i].direction,
                               .hit = {},
                               .material = 0,
-                              .footprint_m = 0.0f,
+                              .footprint_m = width.at(0.0f),
                               .ray_kind = camera_ray},
                   .sample = i};
         const auto show = [&](const RayHit& hit, std::uint32_t material) {
             one.arrival.hit = hit;
             one.arrival.material = material;
-            one.arrival.footprint_m = spread * hit.distance_m;
+            one.arrival.footprint_m = width.at(hit.distance_m);
             shown.push_back(one);
         };
         bool ends = false;

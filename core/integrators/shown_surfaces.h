@@ -19,7 +19,7 @@ struct Shown {
 /// What camera rays show: of each surface some, by what those before it let through. Samples: of the rays, set to what
 /// comes from no surface.
 std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                                  std::span<const std::optional<RayHit>> hits, float spread, ProgramMemory& memory,
-                                  std::span<Sample> samples);
+                                  std::span<const std::optional<RayHit>> hits, const PixelWidth& width,
+                                  ProgramMemory& memory, std::span<Sample> samples);
 
 }  // namespace pivot

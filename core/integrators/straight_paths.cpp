@@ -46,35 +46,35 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
     const Scene& scene = work.scene;
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
-    const float spread = scene.camera().pixel_spread() * part_of_pixel(work.settings);
+    const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(work.settings);
     std::vector<Passage> passages;
     if (scene.has_transparency())
-        passages = find_passages(scene, work.settings.max_passages, straight_rays(camera_rays, hits, spread),
-                                 visible_to_camera, 0,
-                                 chosen_by(work.samplers, 0, least_part_of_camera, std::identity()), work.memory);
+        passages =
+            find_passages(scene, work.settings.max_passages, straight_rays(camera_rays, hits, width), visible_to_camera,
+                          0, chosen_by(work.samplers, 0, least_part_of_camera, std::identity()), work.memory);
     std::span<const Passage> left = passages;
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = work.samples[i];
         Path path{.arrival = {.direction = camera_rays[i].direction,
                               .hit = {},
                               .material = 0,
-                              .footprint_m = 0.0f,
+                              .footprint_m = width.at(0.0f),
                               .ray_kind = camera_ray},
                   .throughput = Rgb(1.0f),
-                  .spread = spread,
+                  .spread = width.per_m,
                   .emission_weight = 1.0f,
                   .sample = static_cast<std::uint32_t>(i)};
         float from_m = 0.0f;
         std::uint32_t part = 0;
         const auto cross_to = [&](float distance_m) {
-            path.arrival.footprint_m = spread * from_m;
+            path.arrival.footprint_m = width.at(from_m);
             if (fog) path.throughput *= fog->cross(part_of(camera_rays[i], from_m, distance_m), 0, path, part++);
             from_m = distance_m;
         };
         const auto show = [&](const RayHit& hit, std::uint32_t material, float shown) {
             path.arrival.hit = hit;
             path.arrival.material = material;
-            path.arrival.footprint_m = spread * hit.distance_m;
+            path.arrival.footprint_m = width.at(hit.distance_m);
             paths.push_back(path);
             paths.back().throughput *= shown;
         };

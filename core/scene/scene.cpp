@@ -250,6 +250,16 @@ void Scene::set_camera(const Camera& camera) {
         throw std::invalid_argument(
             "camera: view_plane must be (left, right, bottom, top) with left < right, bottom < top");
     }
+    const Lens& lens = camera.lens;
+    if (!(lens.radius_m >= 0.0f) || !(lens.focus_m > 0.0f) || !(lens.ratio > 0.0f) || !std::isfinite(lens.radius_m) ||
+        !std::isfinite(lens.focus_m) || !std::isfinite(lens.ratio) || !std::isfinite(lens.rotation_rad)) {
+        throw std::invalid_argument("camera: its lens must be finite, with its focus and its ratio above 0");
+    }
+    const Ray middle = camera.ray(0.5f * Vec2f(static_cast<float>(camera.width), static_cast<float>(camera.height)));
+    if (!is_finite(middle.origin) || !is_finite(middle.direction) || std::isnan(camera.clip_end_m) ||
+        !std::isfinite(camera.clip_start_m) || !std::isfinite(camera.pixel_width().at(1.0f))) {
+        throw std::invalid_argument("camera: its projection or clip distances are not finite");
+    }
     camera_ = camera;
     camera_facts_ = camera.facts();
 }

@@ -136,7 +136,6 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
         "in grey. Fix: use Monte Carlo",
         "object 'pane', material 'window': in the analytic integrator it mirrors light, but none comes through. "
         "Fix: use Monte Carlo",
-        "camera 'Camera': Depth of Field is not supported, everything is in focus",
         "scene 'Scene': Motion Blur is not supported, the picture is sharp",
         "collection 'masked': Holdout is not supported, its objects are shown as they are",
         "collection 'within': Indirect Only is not supported, the camera sees its objects",

@@ -77,7 +77,6 @@ def _reports() -> Any:
         fill.data.cycles.cast_shadow = False
     if bpy.app.version >= (4, 0):
         fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
-    bpy.context.scene.camera.data.dof.use_dof = True
     bpy.context.scene.render.use_motion_blur = True
     catcher = parts.quad("catcher")
     catcher.is_shadow_catcher, catcher.visible_shadow = True, False

@@ -229,6 +229,8 @@ class Scene:
         window: Any,
         clip_start_m: float,
         clip_end_m: float,
+        projection: Any,
+        lens: Any,
     ) -> None:
         camera = dict(locals())
         del camera["self"]
@@ -264,6 +266,20 @@ class Session:
         return np.zeros((self.height, self.width, channels), np.float32)
 
 
+# The core's, recorded as their names and arguments.
+OPTICS = (
+    "Perspective",
+    "Orthographic",
+    "Equirectangular",
+    "CentralCylindrical",
+    "FisheyeEquidistant",
+    "FisheyeEquisolid",
+    "FisheyePolynomial",
+    "CubeMapFace",
+    "MirrorBall",
+    "Lens",
+)
+
 _recordings: list[Recording] = []
 
 
@@ -273,6 +289,8 @@ def _in_place_of_the_core() -> Iterator[None]:
     core: Any = ModuleType("pivot_core")
     for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf"):
         setattr(core, name, getattr(real, name))
+    for name in OPTICS:
+        setattr(core, name, lambda *numbers, name=name: (name, *numbers))
     for part in (
         Material,
         Shader,
