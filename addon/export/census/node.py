@@ -80,6 +80,13 @@ NODE = {
         used="image image_user texture_mapping projection projection_blend interpolation extension",
         no_meaning="color_mapping",
     ),
+    "ShaderNodeTexSky": Table(
+        used="""
+        texture_mapping sky_type sun_direction turbidity sun_disc sun_size sun_intensity sun_elevation sun_rotation
+        altitude air_density dust_density aerosol_density@5.0 ozone_density
+        """,
+        no_meaning="color_mapping ground_albedo",
+    ),
     "ShaderNodeTexEnvironment": Table(
         used="image image_user texture_mapping projection interpolation", no_meaning="color_mapping"
     ),
@@ -244,4 +251,5 @@ INPUTS = {
     "ShaderNodeVectorDisplacement": Inputs(no_meaning="Vector, Midlevel, Scale"),
     "ShaderNodeTexImage": Inputs("Vector"),
     "ShaderNodeTexEnvironment": Inputs("Vector"),
+    "ShaderNodeTexSky": Inputs("Vector"),
 }

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...report import Reporter
 from ..program import Program, UnknownOp, Value
-from . import colours, curves, geometry, images, maths, normals, object, ray, textures
+from . import colours, curves, geometry, images, maths, normals, object, ray, skies, textures
 from .row import Row
 
 MID_GREY = 0.5
@@ -27,6 +27,7 @@ ROWS: dict[str, Row] = (
     | geometry.ROWS
     | object.ROWS
     | ray.ROWS
+    | skies.ROWS
     | normals.ROWS
     | textures.ROWS
     | images.ROWS
