@@ -9,6 +9,7 @@ from .census import report_left_out
 from .context import Context
 from .media import core_medium, report_analytic
 from .nodes import Owner, active_tree
+from .nodes.ray import CAMERA_RAY
 from .nodes.skies import sun_light
 from .program import Program
 from .shader import light_emission
@@ -35,11 +36,15 @@ def export_world(context: Context) -> bool:
     if tree is not None:
         _add_suns(context, tree, owner)
         _set_medium(context, tree, owner, world, shines)
+    varies = not radiance.is_constant
+    visibility = getattr(world, "cycles_visibility", None)
+    if visibility is not None and not visibility.camera:
+        radiance = radiance * (1.0 - program.op("ray_is", settings=[CAMERA_RAY]))
     with naming(owner, "give its colour and strength finite values"):
         if radiance.is_constant:
             context.scene.set_world(radiance=radiance.numbers)
         else:
-            if context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
+            if varies and context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
                 context.reporter.warn(
                     f"{owner}: in the analytic integrator it lights by its mean. Fix: use Monte Carlo"
                 )

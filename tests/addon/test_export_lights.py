@@ -139,7 +139,7 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
         "scene 'Scene': Motion Blur is not supported, the picture is sharp",
         "collection 'masked': Holdout is not supported, its objects are shown as they are",
         "collection 'within': Indirect Only is not supported, the camera sees its objects",
-        "world 'World': Camera Visibility is not supported, the camera sees it",
+        "world 'World': Diffuse Visibility is not supported, it lights diffuse surfaces too",
     ]
     if host.version >= (4, 0):
         said.append("light 'fill': light linking is not supported, it shines on everything")

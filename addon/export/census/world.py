@@ -28,11 +28,11 @@ WORLD = {
     ),
     "CyclesVisibilitySettings": Table(
         left_out=(
-            LeftOut("camera", True, "the camera sees it", what="Camera Visibility is"),
             LeftOut("diffuse", True, "it lights diffuse surfaces too", what="Diffuse Visibility is"),
             LeftOut("glossy", True, "it lights glossy surfaces too", what="Glossy Visibility is"),
             LeftOut("scatter", True, "it lights fog too", what="Volume Scatter Visibility is"),
         ),
+        used="camera",
         no_meaning="name transmission shadow",
     ),
 }

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..program import Value
 from ..sky import LIMB_DARKENING, Air, horizon_rad, preetham, single_scattering, sun_disk
+from .ray import CAMERA_RAY
 from .row import Node, Row
 from .texture_mapping import mapped
 
@@ -18,7 +19,7 @@ _INSTEAD = {
     "HOSEK_WILKIE": "the sky of Hosek and Wilkie is not supported, it is Preetham's",
     "MULTIPLE_SCATTERING": "Multiple Scattering is not supported, light is scattered once",
 }
-_LINEAR, _EXTEND, _CAMERA_RAY = 1, 1, 1  # the core's
+_LINEAR, _EXTEND = 1, 1  # the core's
 _SUN_HIDES_SKY = bpy.app.version < (5, 0)
 _LIMB_MEAN = 1 - LIMB_DARKENING / 3  # over the sun's disk
 
@@ -130,7 +131,7 @@ def _sun(node: Node, direction: Value, air: Air, azimuth_rad: float) -> tuple[Va
     is_there = program.each("math_less_than", share2, 1.0)
     is_there = is_there * program.each("math_greater_than", elevation, -horizon_rad(air.altitude_m))
     if is_sun_a_lamp(blender_node):
-        is_there = is_there * node.op("ray_is", settings=[_CAMERA_RAY])
+        is_there = is_there * node.op("ray_is", settings=[CAMERA_RAY])
     limb = (1.0 - share2).at_least(0.0).root() * LIMB_DARKENING + (1 - LIMB_DARKENING)
     colour = program.colour(low) + (program.colour(high) - program.colour(low)) * height
     return colour.at_least(0.0) * (limb * is_there), is_there

@@ -85,7 +85,7 @@ def _reports() -> Any:
     hair.particle_systems[0].settings.type = "HAIR"
     _masks()
     world = parts.world((1, 1, 1))
-    world.cycles_visibility.camera = False
+    world.cycles_visibility.diffuse = False
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
     place = glow.node_tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
     glow.node_tree.links.new(place, emission.inputs["Strength"])

@@ -17,6 +17,7 @@ CASES: dict[str, dict[str, Any]] = {
     "noon": NOON | {"sun_intensity": 0.1},
     "dusk": NOON | {"sun_elevation": -0.02, "sun_disc": False, "altitude": 3000, "ozone_density": 3},
     "haze": NOON | {"sun_elevation": 2.6, "sun_disc": False, "air_density": 2, "altitude": 0},
+    "unseen": NOON | {"sun_disc": False},
     "daylight": {"sky_type": "PREETHAM", "sun_direction": (0.5, 0.3, 0.81), "turbidity": 4},
 }
 
@@ -40,6 +41,7 @@ def main(folder: Path) -> Any:
         tree.links.new(sky.outputs[0], tree.nodes["Background"].inputs["Color"])
         tree.nodes["Background"].inputs["Strength"].default_value = 0.1 if settings["sky_type"] == SINGLE else 0.5
         scene = bpy.context.scene
+        scene.world.cycles_visibility.camera = name != "unseen"
         scene.render.engine = "CYCLES"
         scene.cycles.device, scene.cycles.samples, scene.cycles.max_bounces = "CPU", 256, 0
         scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
