@@ -49,7 +49,10 @@ struct VisibleShare {
     /// How many points of equal weight say as much.
     float count() const { return squares > 0.0f ? all * all / squares : 0.0f; }
     /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
-    float variance() const { return is_mixed() ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f; }
+    float variance() const {
+        const bool says_much = is_mixed() && squares > 0.0f;  // which a light too weak for floats leaves 0
+        return says_much ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f;
+    }
 
    private:
     /// Exact where nothing or all is left.
