@@ -781,6 +781,19 @@ LOBES: dict = {
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
     },
+    "oren_nayar": {
+        "weight": (3, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "roughness": (1, 0.0, 1.0),
+        "keeps_energy": (1, 0.0, 1.0),
+    },
+    "disney_diffuse": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "roughness": (1, 0.0, 1.0),
+        "sheen": (3, 0.0, 3.4028234663852886e38),
+    },
+    "sheen": {"color": (3, 0.0, 3.4028234663852886e38), "roughness": (1, 0.0, 1.0)},
+    "velvet": {"color": (3, 0.0, 3.4028234663852886e38), "sigma": (1, 0.0, 1.0)},
 }
 LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3

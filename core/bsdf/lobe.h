@@ -8,15 +8,20 @@
 
 #include "core/bsdf/highlight.h"
 #include "core/bsdf/lobes/dielectric.h"
+#include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/oren_nayar.h"
+#include "core/bsdf/lobes/sheen.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
+#include "core/bsdf/lobes/velvet.h"
 #include "core/bsdf/material.h"
 
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>>;
+using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, OrenNayar<T>,
+                             DisneyDiffuse<T>, Sheen<T>, Velvet<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
@@ -26,7 +31,8 @@ concept HasTable = requires {
 
 /// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
 /// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light; and its Parameters turn_over(mask), which makes them those of the surface's back.
+/// what is no diffuse light; and its Parameters turn_over(mask), which makes them those of the surface's back; and
+/// is_diffuse, where bumps light it as they do the base's diffuse lobe.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {

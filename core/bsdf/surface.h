@@ -57,8 +57,11 @@ SurfaceOf<T> blurred(const SurfaceOf<T>& surface, T least_alpha) {
 template <class T>
 Vec3<T> eval(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
     Vec3<T> value = eval_base(surface, wi_local);
-    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
-        value += select(is_kind, lobe.eval(surface.wo_local, wi_local), Vec3<T>(T(0)));
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        Vec3<T> of_lobe = lobe.eval(surface.wo_local, wi_local);
+        if constexpr (requires { requires L::is_diffuse; })
+            if (any(surface.bump.is_turned())) of_lobe *= surface.bump.cosine(wi_local) / max(wi_local.z, T(1e-3f));
+        value += select(is_kind, of_lobe, Vec3<T>(T(0)));
     });
     return value;
 }

@@ -177,6 +177,17 @@ void add_virtual_lights(const VirtualReflection& reflection, const Base& surface
     if (has_bounced) gathered.indirect += light;
 }
 
+/// What a batch reflects of the triangles that are virtual lights.
+void add_emitted(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                 const SurfaceBatch& batch, std::uint32_t sample_index, std::span<Gathered> gathered) {
+    for (const VirtualLightTree& side : lights.emitted) {
+        if (side.empty()) continue;
+        const auto reflected = reflect_virtual_lights(scene, settings, side, {}, batch, sample_index);
+        for (std::size_t i = 0; i < batch.count; ++i)
+            add_virtual_lights(reflected[i], batch.lanes[i]->surface, false, gathered[i]);
+    }
+}
+
 void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
                  const AnalyticLights& lights, std::uint32_t sample_index, std::span<const ShadingPoint> shading,
                  std::span<Gathered> gathered) {
@@ -184,12 +195,7 @@ void shade_batch(const Scene& scene, const RenderSettings& settings, const Shado
     if (!batch.has_diffuse && !batch.has_glossy) return;
     Unhidden light = unhidden_light(scene, settings, lights, batch);
     add_lamps(scene, settings, lights, points, batch, light, gathered);
-    for (const VirtualLightTree& side : lights.emitted) {
-        if (side.empty()) continue;
-        const auto reflected = reflect_virtual_lights(scene, settings, side, {}, batch, sample_index);
-        for (std::size_t i = 0; i < batch.count; ++i)
-            add_virtual_lights(reflected[i], shading[i].surface, false, gathered[i]);
-    }
+    add_emitted(scene, settings, lights, batch, sample_index, gathered);
     if (!scene.has_world()) return;
     for (std::size_t i = 0; i < shading.size(); ++i) {
         WorldReflection world = light.world[i];
@@ -214,12 +220,14 @@ struct HitSurface {
 };
 
 /// What has closed forms, and of which surface: first all bases, so that neighbours stay neighbours, then what further
-/// lobes are.
+/// lobes are. Behind these, where virtual lights shine, the bases that stand for lobes without closed forms there.
 struct Parts {
     std::vector<ShadingPoint> shading;
     std::vector<std::size_t> surface;
+    std::size_t exact_count = 0;
 };
-Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const HitSurface> hits) {
+Parts parts_of(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+               std::span<const HitSurface> hits) {
     Parts parts;
     const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base) {
         parts.shading.push_back({point, base, {}});
@@ -228,11 +236,17 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
         parts.surface.push_back(of);
     };
     for (std::size_t i = 0; i < hits.size(); ++i) add(i, hits[i].point, hits[i].surface);
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-            if constexpr (L::has_closed_form)
-                add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
-        });
+    const auto add_lobes = [&](bool with_closed_form) {
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
+                if (L::has_closed_form == with_closed_form)
+                    add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
+            });
+    };
+    add_lobes(true);
+    parts.exact_count = parts.shading.size();
+    const bool emits = std::ranges::any_of(lights.emitted, [](const VirtualLightTree& side) { return !side.empty(); });
+    if (emits || !lights.bounced.is_empty()) add_lobes(false);
     return parts;
 }
 
@@ -254,6 +268,7 @@ void add_lobe_points(const Scene& scene, const RenderSettings& settings, const A
     for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
         if constexpr (!L::has_closed_form) {
             Surface alone(make_base(BaseMaterialOf<float>{}, hit.surface.wo_local));
+            alone.bump = hit.surface.bump;
             alone.lobes = {record};
             alone.lobes[0].probability = 1.0f;
             const auto add = [&](const LobeReflection& reflection) {
@@ -326,14 +341,18 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         see(scene, rest.first(count), std::span<const Shown>(shown).subspan(first, count), memory, surfaces, samples);
         first += count;
     }
-    const Parts parts = parts_of(scene, settings, surfaces);
-    const auto& [shading, surface_of] = parts;
+    const Parts parts = parts_of(scene, settings, lights, surfaces);
+    const auto& [shading, surface_of, exact_count] = parts;
     std::vector<Gathered> light(surfaces.size());
-    for (std::size_t first = 0; first < shading.size(); first += batch_size) {
-        const std::size_t count = std::min(batch_size, shading.size() - first);
+    for (std::size_t first = 0, count = 0; first < shading.size(); first += count) {
+        const bool is_exact = first < exact_count;
+        count = std::min(batch_size, (is_exact ? exact_count : shading.size()) - first);
         std::array<Gathered, batch_size> gathered{};
-        shade_batch(scene, settings, points, lights, sample_index, std::span(shading).subspan(first, count),
-                    std::span(gathered).first(count));
+        const auto lanes = std::span(shading).subspan(first, count);
+        if (is_exact)
+            shade_batch(scene, settings, points, lights, sample_index, lanes, std::span(gathered).first(count));
+        else
+            add_emitted(scene, settings, lights, make_batch(lanes), sample_index, gathered);
         for (std::size_t i = 0; i < count; ++i) light[surface_of[first + i]].add(gathered[i]);
     }
     if (!lights.bounced.is_empty())

@@ -35,14 +35,16 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     const auto* area = std::get_if<AreaLight>(&light);
     if (area && strategy == LightSampling::joint && !transmits) {
         const AreaView<float> view = view_from(numbers_of(*area), point);
+        const JointSurface<float> whole = joint_surface_of_all(surface);
         if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
         else if (!is_even_enough(view))
-            area_.emplace(joint_surface_of_all(surface), view);
+            area_.emplace(whole, view);
         const Highlights highlights = highlights_of(surface);
-        const bool is_as_of_base =
-            !has_lobes || (!surface.has_glossy() && highlights.is_one_of_a_base() && highlights.are_close);
-        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, joint_surface(surface));
+        const bool has_one_highlight =
+            highlights.is_empty() || (!surface.has_glossy() && highlights.is_one_of_a_base());
+        const bool is_as_of_base = !has_lobes || (has_one_highlight && highlights.are_close);
+        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, whole);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};

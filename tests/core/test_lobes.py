@@ -122,10 +122,11 @@ def test_samples_follow_their_density(name: str, theta: float) -> None:
 
 @pytest.mark.parametrize(("name", "theta"), CASES)
 def test_albedo_is_the_integral_of_the_lobes(name: str, theta: float) -> None:
-    """Which is what a furnace of radiance 1 shows; about, for Fresnel is that of one angle."""
+    """Which is what a furnace of radiance 1 shows; about, for Fresnel is that of one angle. Less than a millionth is
+    never chosen."""
     wo, material = direction(theta), MATERIALS[name]
     scattered = [integral(lambda omega, c=c: evaluate(material, wo, omega)[0][..., c]).sum() for c in range(3)]
-    np.testing.assert_allclose(np.mean(material.albedo(wo)), np.mean(scattered), rtol=0.1)
+    np.testing.assert_allclose(np.mean(material.albedo(wo)), np.mean(scattered), rtol=0.1, atol=1e-6)
 
 
 def on_floor(material: pivot_core.Material, lit_from: str) -> pivot_core.Scene:
@@ -238,7 +239,7 @@ def test_a_base_in_shares_is_the_whole() -> None:
 @pytest.mark.parametrize(
     ("lobes", "said"),
     [
-        ([("velvet", {})], "lobe 'velvet': there is no such kind; there are base, translucent, tabulated, dielectric"),
+        ([("felt", {})], f"lobe 'felt': there is no such kind; there are {', '.join(KINDS)}"),
         ([("translucent", {"colour": (1, 1, 1)})], "lobe 'translucent': its parameters are color"),
         ([("translucent", {"color": 1.0})], "lobe 'translucent': color must be three numbers"),
         ([("base", {"alpha": 2.0})], "lobe 'base': alpha must be finite and in .0"),
@@ -255,7 +256,8 @@ def test_bad_lobes_are_named(lobes: list[tuple[str, dict[str, object]]], said: s
 
 @pytest.mark.parametrize(("name", "lit_from"), PICTURES)
 def test_the_analytic_integrator_knows_every_lobe(name: str, lit_from: str) -> None:
-    """Its picture is Monte Carlo's within the error that it predicts and what Monte Carlo leaves; the world apart."""
+    """Its picture is Monte Carlo's within the error that it predicts and what Monte Carlo leaves; the world apart.
+    Upright fibres send next to nothing here: a millionth of the lights' radiance is not seen."""
     scene = on_floor(WITH_CLOSED_FORMS[name], lit_from)
     scene.set_world((0, 0, 0))
     session = pivot_core.Session(
@@ -267,5 +269,5 @@ def test_the_analytic_integrator_knows_every_lobe(name: str, lit_from: str) -> N
     ours = session.read("Combined")[..., :3].astype(float).mean(-1)
     error = session.read("Error")[..., 0] * ours
     random = render(scene, samples=1024, max_bounces=0)[..., :3].astype(float).mean(-1)
-    assert np.abs(ours.mean() - random.mean()) <= error.mean() + 0.005 * random.mean()
-    np.testing.assert_allclose(ours, random, atol=(3 * error + 0.05 * random.mean()).max())
+    assert np.abs(ours.mean() - random.mean()) <= error.mean() + 0.005 * random.mean() + 1e-6
+    np.testing.assert_allclose(ours, random, atol=(3 * error + 0.05 * random.mean()).max() + 1e-6)

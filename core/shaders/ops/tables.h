@@ -22,6 +22,7 @@ std::span<const OpKind> magic_ops();
 std::span<const OpKind> brick_ops();
 std::span<const OpKind> attribute_ops();
 std::span<const OpKind> ray_ops();
+std::span<const OpKind> layer_ops();
 std::span<const OpKind> normal_ops();
 std::span<const OpKind> image_ops();
 
