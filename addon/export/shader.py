@@ -11,8 +11,10 @@ from dataclasses import replace
 
 import bpy
 
+from . import cloth
 from .census import INPUTS
 from .dielectric import Dielectric
+from .lobe import Lobe
 from .nodes import (
     MID_GREY,
     Owner,
@@ -122,7 +124,11 @@ def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket
 
 
 def _diffuse(feed: Socket, owner: Owner) -> Surface:
-    return Surface.of(owner.program, diffuse=colour(feed.input("Color"), owner), normal=normal(feed, owner))
+    tint, roughness = colour(feed.input("Color"), owner), number(feed.input("Roughness"), owner).clamped()
+    if roughness.is_always(0):
+        return Surface.of(owner.program, diffuse=tint, normal=normal(feed, owner))
+    rough = cloth.rough_diffuse(tint.at_least(0.0), tint, roughness)
+    return Surface.of(owner.program, lobes=(rough,), normal=normal(feed, owner))
 
 
 def _translucent(feed: Socket, owner: Owner) -> Surface:
@@ -212,7 +218,7 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     opaque = (1.0 - metallic) * (1.0 - glass)
     whole = Surface.of(
         owner.program,
-        diffuse=base * opaque,
+        **_principled_diffuse(feed, owner, base, opaque, ior, tint),
         alpha=_alpha(feed, owner),
         conductor_f0=f0 * metallic,
         conductor_f90=_grazing_reflectance(f0, edge_tint, feed, owner) * metallic,
@@ -226,10 +232,25 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
+    if feed.find_input("Sheen Weight") is not None:
+        whole = cloth.under_sheen(whole, feed, owner)
     opacity = number(feed.input("Alpha"), owner).clamped()
     if opacity.is_always(1):
         return whole
     return added(whole.scaled(opacity), _let_through(1.0 - opacity))[0]
+
+
+def _principled_diffuse(
+    feed: Socket, owner: Owner, base: Value, opaque: Value, ior: Value, tint: Value
+) -> dict[str, Value | tuple[Lobe, ...]]:
+    """What Principled has of a diffuse lobe: before Blender 4.0 Disney's, of which the highlight takes no share."""
+    if feed.find_input("Specular IOR Level") is None:
+        return {} if opaque.is_always(0) else {"lobes": (cloth.disney_diffuse(feed, owner, base, opaque),)}
+    target = feed.find_input("Diffuse Roughness")
+    if opaque.is_always(0) or target is None or is_constant(target, 0.0):
+        return {"diffuse": base * opaque}
+    left = cloth.under_dielectric(feed, owner, _alpha(feed, owner), ior, tint, _multiscatter(feed, owner))
+    return {"lobes": (cloth.rough_diffuse(base * opaque * left, base, number(target, owner).clamped()),)}
 
 
 def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
@@ -274,10 +295,8 @@ def _dielectric(feed: Socket, owner: Owner, base: Value) -> tuple[Value, Value]:
         f0 = ratio * ratio * (2.0 * number(level, owner).at_least(0.0))
         return _ior_from_f0(f0), colour(feed.input("Specular Tint"), owner).at_least(0.0)
     f0 = 0.08 * number(feed.input("Specular"), owner).at_least(0.0)
-    luminance = base[0] * 0.3 + base[1] * 0.6 + base[2] * 0.1
-    white, lit = owner.program.colour((1, 1, 1)), owner.program.each("math_greater_than", luminance, 0.0)
-    hue = owner.program.mixed(lit, white, base / luminance)
-    return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, hue)
+    white = owner.program.colour((1, 1, 1))
+    return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, cloth.hue(base))
 
 
 def _any_ior(feed: Socket, owner: Owner) -> Value:
@@ -329,6 +348,8 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_TRANSLUCENT": _translucent,
+    "BSDF_SHEEN": cloth.sheen,
+    "BSDF_VELVET": cloth.velvet,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,

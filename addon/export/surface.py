@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .dielectric import Dielectric, as_few, at_most
+from .lobe import Lobe, as_few_lobes
 from .program import Program, Register, Value
 
 _BASE = (
@@ -23,8 +24,8 @@ class Surface:
 
     The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
     are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
-    dielectrics: what of it is glass. transparency: the colour of light that goes straight on; opacity: how much of a
-    surface all else is.
+    dielectrics: what of it is glass. lobes: what it has of other kinds. transparency: the colour of light that goes
+    straight on; opacity: how much of a surface all else is.
     """
 
     diffuse: Value
@@ -43,6 +44,7 @@ class Surface:
     multiscatter: bool = False
     further: tuple[Surface, ...] = ()
     dielectrics: tuple[Dielectric, ...] = ()
+    lobes: tuple[Lobe, ...] = ()
     normal: Value | None = None  # of all lobes, world space; None: the mesh's own
     normal_is_own: bool = False  # it is as displacement would turn the mesh's own
     ndf: Any = None  # pivot_core.TabulatedNdf of all its bases; None: each has its own alpha
@@ -88,6 +90,7 @@ class Surface:
             opacity=self.opacity * weight,
             further=tuple(surface.scaled(weight) for surface in self.further),
             dielectrics=tuple(dielectric.scaled(weight) for dielectric in self.dielectrics),
+            lobes=tuple(lobe.scaled(weight) for lobe in self.lobes),
         )
 
     def gloss(self) -> float:
@@ -100,16 +103,22 @@ class Surface:
         """Those that reflect, each as a surface of nothing else."""
         if not self.diffuse.is_always(0) or self.gloss() > 0:
             black = self.program.colour((0, 0, 0))
-            yield replace(self, emission=black, translucent=black, transparency=black, further=(), dielectrics=())
+            beside = {"further": (), "dielectrics": (), "lobes": ()}
+            yield replace(self, emission=black, translucent=black, transparency=black, **beside)
         yield from self.further
 
     def within(self, lobes: int) -> tuple[Surface, bool]:
         """The surface with so many lobes beside its base at most, and whether it is the same.
 
-        The highlights of the weakest bases become those of the one before them.
+        The highlights of the weakest bases become those of the one before them, lobes of other kinds Lambert's.
         """
-        bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
         left = lobes - (not self.translucent.is_always(0))
+        most = left - bool(self.dielectrics)
+        if len(self.lobes) > most:
+            diffuse = sum((lobe.as_diffuse() for lobe in self.lobes[most:]), self.diffuse)
+            return replace(self, diffuse=diffuse, lobes=self.lobes[:most]).within(lobes)[0], False
+        left -= len(self.lobes)
+        bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
         if len(self.dielectrics) > left:
             return replace(self, dielectrics=at_most(self.dielectrics, left)).within(lobes)[0], False
         most = 1 + left - len(self.dielectrics)
@@ -128,7 +137,7 @@ class Surface:
         lobes = [(kind, surface._base_values(), surface._base_settings() | table) for surface in beside]
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
-        lobes += [dielectric.lobe() for dielectric in self.dielectrics]
+        lobes += [each.lobe() for each in (*self.dielectrics, *self.lobes)]
         own = first._base_values() | {"emission": self.emission}
         if not self.transparency.is_always(0):
             own |= {"transparency": self.transparency, "opacity": self.opacity}
@@ -149,7 +158,7 @@ class Surface:
 
     def _is_light_alone(self) -> bool:
         """Whether nothing of it is turned by a normal."""
-        return self.translucent.is_always(0) and not self.dielectrics and not list(self.bases())
+        return self.translucent.is_always(0) and not (self.dielectrics or self.lobes or list(self.bases()))
 
     def _base_values(self) -> dict[str, Value]:
         return {name: getattr(self, name) for name in _BASE}
@@ -194,6 +203,7 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
         emission=a.emission + b.emission,
         translucent=a.translucent + b.translucent,
         dielectrics=as_few(a.dielectrics + b.dielectrics),
+        lobes=as_few_lobes(a.lobes + b.lobes),
         transparency=a.transparency + b.transparency,
         opacity=a.opacity + b.opacity,
         normal=next((normal for normal in normals if normal is not None), None),
@@ -213,6 +223,7 @@ def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
         normal=beside.normal,
         further=tuple(further),
         dielectrics=beside.dielectrics,
+        lobes=beside.lobes,
     )
 
 

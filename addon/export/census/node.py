@@ -25,6 +25,7 @@ NODE = {
     "ShaderNodeBsdfGlass": Table(used="distribution"),
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
+    "ShaderNodeBsdfSheen": Table(used="distribution"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
@@ -117,24 +118,24 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha",
+        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha,"
+        "Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint, Sheen Roughness",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
             ("Coat Weight", 0.0),
             ("Clearcoat", 0.0),
-            ("Sheen Weight", 0.0),
-            ("Sheen", 0.0),
             ("Anisotropic", 0.0),
-            ("Diffuse Roughness", 0.0),
             ("Thin Film Thickness", 0.0),
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
-        "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
+        "Anisotropic Rotation, Tangent, Clearcoat Roughness, Clearcoat Normal,"
         "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
-    "ShaderNodeBsdfDiffuse": Inputs("Color, Normal", left_out=(("Roughness", 0.0),), no_meaning="Weight"),
+    "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfAnisotropic": Inputs(
