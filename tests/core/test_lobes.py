@@ -225,6 +225,27 @@ def test_a_translucent_sheet_is_a_white_one_seen_from_behind() -> None:
     np.testing.assert_allclose(picture["through", "below"], picture["white", "above"], rtol=0.02)
 
 
+@pytest.mark.parametrize("kind", ["oren_nayar", "disney_diffuse", "velvet"])
+def test_diffuse_lobes_are_reciprocal(kind: str) -> None:
+    """The BRDF is one from either end: not of sheen, a fit with the cosine in it."""
+    material = pivot_core.Material(lobes=[random_lobe(kind, 3)])
+    for theta, theta_i in itertools.combinations(VIEWS_RAD, 2):
+        ends = direction(theta, 0.4), direction(theta_i, 1.9)
+        there, back = (evaluate(material, a, np.array([b]))[0] / b[2] for a, b in (ends, ends[::-1]))
+        np.testing.assert_allclose(there, back, rtol=1e-4)
+
+
+@pytest.mark.parametrize("roughness", [0.3, 1.0])
+def test_a_rough_white_surface_keeps_all_light(roughness: float) -> None:
+    material = pivot_core.Material(lobes=[("oren_nayar", {"roughness": roughness})])
+    for theta in VIEWS_RAD:
+        wo = direction(theta)
+        np.testing.assert_allclose(material.albedo(wo), 1, rtol=1e-5)
+        assert integral(lambda omega, wo=wo: evaluate(material, wo, omega)[0][..., 0]).sum() == pytest.approx(
+            1, rel=1e-3
+        )
+
+
 def test_a_base_in_shares_is_the_whole() -> None:
     """Halves of one material, the second a further lobe, are that material."""
     whole = {"diffuse": (0.4, 0.2, 0.6), "alpha": 0.2, "dielectric_weight": 1.0}
