@@ -207,7 +207,7 @@ class Material:
     """
     A Lambert lobe beneath one GGX lobe, further lobes, and emission; colours are linear RGB.
 
-    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; opacity: how much of the surface there is beside, which tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of 1.
+    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, less conductor_dip times the weight of F82, cos (1 - cos)^6, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; opacity: how much of the surface there is beside, which tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of 1.
 
     lobes: up to MAX_LOBES beside these, each a kind and its parameters, as LOBES names them; what is not given is as here, or 1.
     """
@@ -253,6 +253,9 @@ class Material:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [0.0, 0.0, 0.0],
         opacity: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        conductor_dip: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
     ) -> None: ...
     def albedo(
         self,
@@ -757,6 +760,7 @@ LOBES: dict = {
         "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
     },
     "translucent": {"color": (3, 0.0, 3.4028234663852886e38)},
     "tabulated": {
@@ -770,6 +774,7 @@ LOBES: dict = {
         "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
     },
     "dielectric": {
         "reflection": (3, 0.0, 3.4028234663852886e38),
@@ -780,6 +785,30 @@ LOBES: dict = {
         "fresnel": (1, 0.0, 1.0),
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
+    },
+    "anisotropic": {
+        "conductor_f0": (3, 0.0, 3.4028234663852886e38),
+        "conductor_f90": (3, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
+        "conductor_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_ior": (1, 1.0, 3.4028234663852886e38),
+        "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+    },
+    "conductor": {
+        "n": (3, 0.0, 3.4028234663852886e38),
+        "k": (3, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
     },
 }
 LOBES_WITH_NDF: list = ["tabulated"]

@@ -44,6 +44,14 @@ inline float fresnel_contrast(const LobeFresnel& f) {
     return contrast;
 }
 
+/// What a lobe reflects of a light, by its sums. Those under F82's weight are not kept, which is nearly a line over
+/// Schlick's weight: it is taken at that one's mean.
+inline Rgb reflected_by(const LobeFresnel& f, const LobeSums<float>& sums) {
+    const float schlick = f.has_dip() ? clamp01(sums.schlick / std::max(sums.plain, tiny<float>)) : 0.0f;
+    const float f82 = f.has_dip() ? sums.plain * f82_weight(1.0f - std::pow(schlick, 0.2f)) : 0.0f;
+    return f.of_sums(sums.plain, sums.schlick, f82, sums.dielectric);
+}
+
 /// At most batch_size points, at least one.
 inline SurfaceBatch make_batch(std::span<const ShadingPoint> points) {
     SurfaceBatch batch;

@@ -52,10 +52,11 @@ void require_valid(const Mesh& mesh) {
 void require_valid(const std::string& name, const Material& material) {
     const auto valid = [](const Rgb& c) { return is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f; };
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
-        !valid(material.dielectric_tint) || !is_finite(material.emission) || !std::isfinite(material.alpha) ||
-        !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
-        !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f) || !valid(material.transparency.color) ||
-        !(material.transparency.opacity >= 0.0f) || !std::isfinite(material.transparency.opacity)) {
+        !valid(material.conductor_dip) || !valid(material.dielectric_tint) || !is_finite(material.emission) ||
+        !std::isfinite(material.alpha) || !std::isfinite(material.dielectric_ior) ||
+        !(material.dielectric_weight >= 0.0f) || !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f) ||
+        !valid(material.transparency.color) || !(material.transparency.opacity >= 0.0f) ||
+        !std::isfinite(material.transparency.opacity)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
     if (material.alpha < 0.0f || material.alpha > 1.0f)

@@ -17,7 +17,8 @@ struct FurtherBase {
         LobeParameter{"conductor_f0", 3, 0.0f, most},     LobeParameter{"conductor_f90", 3, 0.0f, most},
         LobeParameter{"conductor_weight", 1, 0.0f, most}, LobeParameter{"dielectric_weight", 1, 0.0f, most},
         LobeParameter{"dielectric_ior", 1, 1.0f, most},   LobeParameter{"dielectric_tint", 3, 0.0f, most},
-        LobeParameter{"multiscatter", 1, 0.0f, 1.0f},     LobeParameter{"weight", 1, 0.0f, most}};
+        LobeParameter{"multiscatter", 1, 0.0f, 1.0f},     LobeParameter{"weight", 1, 0.0f, most},
+        LobeParameter{"conductor_dip", 3, 0.0f, most}};
     static constexpr bool reflects = true, transmits = false, has_closed_form = true;
 
     BaseOf<T> base;
