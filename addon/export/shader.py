@@ -13,6 +13,8 @@ import bpy
 
 from .census import INPUTS
 from .dielectric import Dielectric
+from .highlight import Highlight, f82, sides, sides_of_glossy
+from .layers import brushed, coated, rotation
 from .nodes import (
     MID_GREY,
     Owner,
@@ -25,6 +27,7 @@ from .nodes import (
     number,
     output_socket,
     source,
+    tangent,
 )
 from .program import Program, Value
 from .surface import Surface, added
@@ -117,7 +120,7 @@ def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket
         return scaled[0]
     total, exact = added(*scaled)
     if not exact:
-        owner.warn(feed.node, "shaders of different normals cannot be mixed, all take the first one's")
+        owner.warn(feed.node, "shaders of different normals or tangents cannot be mixed, all take the first one's")
     return total
 
 
@@ -131,39 +134,42 @@ def _translucent(feed: Socket, owner: Owner) -> Surface:
 
 def _glossy(feed: Socket, owner: Owner) -> Surface:
     tint = colour(feed.input("Color"), owner)
-    return Surface.of(
-        owner.program,
-        alpha=_alpha(feed, owner),
-        conductor_f0=tint,
-        conductor_f90=tint,
-        conductor_weight=owner.program.number(1.0),
-        multiscatter=_multiscatter(feed, owner),
-        normal=normal(feed, owner),
-    )
+    curve = {"conductor_f0": tint, "conductor_f90": tint, "conductor_weight": owner.program.number(1.0)}
+    alpha, anisotropy = _alpha(feed, owner), feed.find_input("Anisotropy")
+    if anisotropy is None or is_constant(anisotropy, 0.0):
+        return _metal(feed, owner, curve, alpha)
+    return _metal(feed, owner, curve, alpha, sides_of_glossy(alpha, number(anisotropy, owner)))
 
 
 def _metallic(feed: Socket, owner: Owner) -> Surface:
-    if feed.node.fresnel_type != "F82":
-        owner.warn(feed.node, "physical conductors are not supported, it is shown by its base colour and edge tint")
+    alpha, anisotropy = _alpha(feed, owner), feed.input("Anisotropy")
+    alphas = None if is_constant(anisotropy, 0.0) else sides(alpha, number(anisotropy, owner))
+    if feed.node.fresnel_type == "PHYSICAL_CONDUCTOR":
+        n, k = (colour(feed.input(name), owner).at_least(0.0) for name in ("IOR", "Extinction"))
+        curve = {"n": n, "k": k, "color": owner.program.colour((1, 1, 1))}
+        return _metal(feed, owner, curve, alpha, alphas or (alpha, alpha), "conductor")
     base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
+    return _metal(feed, owner, f82(base, edge_tint, owner.program.number(1.0)), alpha, alphas)
+
+
+def _metal(
+    feed: Socket,
+    owner: Owner,
+    curve: dict[str, Value],
+    alpha: Value,
+    sides: tuple[Value, Value] | None = None,
+    kind: str = "anisotropic",
+) -> Surface:
+    """A highlight alone. sides: GGX alpha along the tangent and across it, if it is one of those."""
+    turned = normal(feed, owner)
+    if sides is None:
+        return Surface.of(owner.program, **curve, alpha=alpha, multiscatter=_multiscatter(feed, owner), normal=turned)
     return Surface.of(
         owner.program,
-        alpha=_alpha(feed, owner),
-        conductor_f0=base,
-        conductor_f90=_grazing_reflectance(base, edge_tint, feed, owner),
-        conductor_weight=owner.program.number(1.0),
-        multiscatter=_multiscatter(feed, owner),
-        normal=normal(feed, owner),
+        highlights=(Highlight(kind, tuple(curve.items()), *sides, rotation(feed, owner), _multiscatter(feed, owner)),),
+        tangent=tangent(feed, owner),
+        normal=turned,
     )
-
-
-def _grazing_reflectance(f0: Value, edge_tint: Value, feed: Socket, owner: Owner) -> Value:
-    """The F90 by which Schlick's curve has the F82-tint model's reflectance at 82 degrees: exact for a white tint."""
-    if not edge_tint.is_always(1):
-        owner.warn(feed.node, "the edge tint of metal is approximated")
-    weight_82 = (1 - 1 / 7) ** 5
-    reflectance_82 = edge_tint * (f0 + (1.0 - f0) * weight_82)
-    return (f0 + (reflectance_82 - f0) / weight_82).at_least(0.0)
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
@@ -210,22 +216,23 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
     glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
     opaque = (1.0 - metallic) * (1.0 - glass)
+    curve = f82(f0, edge_tint, metallic) | {
+        "dielectric_weight": owner.program.number(0.0) if ior.is_always(1) else opaque,
+        "dielectric_ior": ior,
+        "dielectric_tint": tint,
+    }
     whole = Surface.of(
         owner.program,
         diffuse=base * opaque,
         alpha=_alpha(feed, owner),
-        conductor_f0=f0 * metallic,
-        conductor_f90=_grazing_reflectance(f0, edge_tint, feed, owner) * metallic,
-        conductor_weight=metallic,
-        dielectric_weight=owner.program.number(0.0) if ior.is_always(1) else opaque,
-        dielectric_ior=ior,
-        dielectric_tint=tint,
+        **curve,
         weight=metallic + opaque,
         dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass),
         multiscatter=_multiscatter(feed, owner),
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
+    whole = coated(brushed(whole, curve, feed, owner), feed, owner)
     opacity = number(feed.input("Alpha"), owner).clamped()
     if opacity.is_always(1):
         return whole

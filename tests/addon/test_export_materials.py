@@ -27,7 +27,7 @@ def check(material: dict[str, Any], **expected: Any) -> None:
     """Compare every property of an exported material, those not named with black or none."""
     black = (0, 0, 0)
     full = {"diffuse": black, "conductor_f0": black, "conductor_f90": black, "emission": black}
-    full |= {"conductor_weight": 0, "dielectric_weight": 0}
+    full |= {"conductor_weight": 0, "dielectric_weight": 0, "conductor_dip": black}
     assert lobes(material) == expected.pop("lobes", [])
     for name, value in (full | expected).items():
         np.testing.assert_allclose(material[name], value, rtol=1e-5, atol=1e-6, err_msg=name)
@@ -74,16 +74,58 @@ def test_principled(host: Host, materials: dict[str, Any]) -> None:
 
 
 def test_edge_tint(host: Host, materials: dict[str, Any]) -> None:
-    """From Blender 4.0 metal is the F82-tint model: 7/8 of the way to grazing, Schlick's reflectance times the tint."""
+    """From Blender 4.0 metal is the F82-tint model: 6/7 of the way to grazing, Schlick's reflectance times the tint."""
     if host.version < (4, 0):
         assert "edged_metal" not in materials
         return
     names = ["edged_metal"] + (["metallic_node"] if host.version >= (4, 3) else [])
     for name in names:
-        f0, f90 = (np.array(materials[name][part]) for part in ("conductor_f0", "conductor_f90"))
-        weight = (6 / 7) ** 5
-        np.testing.assert_allclose(f0, RED, rtol=1e-5)
-        np.testing.assert_allclose(f0 + (f90 - f0) * weight, 0.9 * (RED + (1 - RED) * weight), rtol=1e-5)
+        schlick = RED + (1 - RED) * (6 / 7) ** 5
+        dip = 0.1 * schlick / (1 / 7 * (6 / 7) ** 6)
+        check(
+            materials[name],
+            alpha=0.25,
+            conductor_f0=RED,
+            conductor_f90=(1, 1, 1),
+            conductor_dip=dip,
+            conductor_weight=1,
+        )
+
+
+def test_coats(host: Host, materials: dict[str, Any]) -> None:
+    """What lies beneath varies with the view; before Blender 4.0 a clearcoat is a quarter of a coat."""
+    beneath = ["dielectric_weight", "diffuse", "weight"]
+    weight = 0.5 if host.version >= (4, 0) else 0.125
+    for name in ("lacquered", "bumpy_beneath"):
+        [(kind, coat)] = materials[name]["lobes"]
+        assert coat["dielectric_weight"] == pytest.approx(weight)
+        assert coat["dielectric_ior"] == pytest.approx(1.5)
+        assert coat["multiscatter"] == 1
+        if name == "lacquered":
+            assert (kind, coat["alpha"]) == ("base", pytest.approx(0.25))
+            assert materials[name]["varying"] == beneath
+        else:
+            assert (kind, coat["alpha_x"], coat["alpha_y"]) == ("anisotropic", pytest.approx(0.25), pytest.approx(0.25))
+            assert materials[name]["varying"] == sorted([*beneath, "lobes.0.normal", "normal"])
+
+
+def test_anisotropic_highlights(host: Host, materials: dict[str, Any]) -> None:
+    """By each node's own formula; Glossy BSDF's are long across the tangent where its anisotropy is above 0."""
+    aspect = (1 - 0.9 * 0.8) ** 0.5
+    alphas = {"brushed": (0.25 / aspect, 0.25 * aspect), "across": (0.0625, 1), "along": (1, 0.0625)}
+    for name, expected in alphas.items():
+        [(kind, lobe)] = materials[name]["lobes"]
+        assert kind == "anisotropic"
+        assert (lobe["alpha_x"], lobe["alpha_y"]) == pytest.approx(expected)
+        assert lobe["rotation"] == pytest.approx(0.25)
+        assert lobe["conductor_f0"] == pytest.approx(RED)
+        assert materials[name]["varying"] == ["tangent"]
+        check(materials[name] | {"lobes": []}, alpha=1)
+    if host.version >= (4, 3):
+        [(kind, lobe)] = materials["silver"]["lobes"]
+        assert kind == "conductor"
+        assert (lobe["alpha_x"], lobe["alpha_y"]) == pytest.approx(alphas["brushed"])
+        assert lobe["n"] == pytest.approx((0.05, 0.06, 0.05))
 
 
 def test_diffuse_glossy_and_emission(materials: dict[str, Any]) -> None:
@@ -176,7 +218,8 @@ def test_links_are_followed(materials: dict[str, Any]) -> None:
 
 
 def test_what_varies_over_a_surface(materials: dict[str, Any]) -> None:
-    varying = {name: material["varying"] for name, material in materials.items() if material["varying"]}
+    turned = ("brushed", "across", "along", "silver", "lacquered", "bumpy_beneath", "coated")  # and coats: told above
+    varying = {n: material["varying"] for n, material in materials.items() if material["varying"] and n not in turned}
     assert varying == {name: ["diffuse"] for name in ("image", "noise", "checker", "ramp", "fog")} | {
         "rough_noise": ["alpha"],
         "bump": ["normal"],
@@ -193,8 +236,8 @@ def test_nearest_meanings(host: Host, materials: dict[str, Any]) -> None:
     check(materials["bubble"], diffuse=(0.8,) * 3, dielectric_weight=1, dielectric_ior=principled_ior)
     check(materials["oren_nayar"], diffuse=RED)
     check(materials["beckmann"], conductor_f0=RED, conductor_f90=RED, conductor_weight=1, alpha=0.25)
-    half = {"weight": 0.5, "transparency": (0.5,) * 3, "opacity": 0.5}
-    check(materials["coated"], diffuse=RED / 2, dielectric_weight=0.5, **half)
+    assert materials["coated"]["transparency"] == pytest.approx((0.5,) * 3)
+    assert materials["coated"]["opacity"] == pytest.approx(0.5)
     check(materials["smoke"], diffuse=RED)
     check(materials["no_surface"], diffuse=(0.8,) * 3)
     check(materials["none"], diffuse=(0.8,) * 3)
@@ -213,7 +256,7 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         "no_image": ["Image Texture"],
         "oren_nayar": ["Diffuse BSDF"],
         "beckmann": ["Glossy BSDF"],
-        "coated": ["Principled BSDF"] * 2,
+        "coated": ["Principled BSDF"],
         "fog": ["Principled Volume"],
         "many_highlights": [None],
         "no_surface": [None],
@@ -221,9 +264,6 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
     if host.version >= (4, 0):
         expected["bubble"] = ["Principled BSDF"]  # before, its IOR is of transmission alone
         expected["loop"] = [None]  # before, Blender itself cuts a loop open
-        expected["edged_metal"] = ["Principled BSDF"]
-    if host.version >= (4, 3):
-        expected["metallic_node"] = ["Metallic BSDF"]
     assert said == expected
 
 

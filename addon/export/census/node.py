@@ -117,33 +117,29 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha",
+        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha,"
+        "Anisotropic, Anisotropic Rotation, Tangent, Coat Weight, Coat Roughness, Coat IOR, Coat Tint, Coat Normal,"
+        "Clearcoat, Clearcoat Roughness, Clearcoat Normal",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
-            ("Coat Weight", 0.0),
-            ("Clearcoat", 0.0),
             ("Sheen Weight", 0.0),
             ("Sheen", 0.0),
-            ("Anisotropic", 0.0),
             ("Diffuse Roughness", 0.0),
             ("Thin Film Thickness", 0.0),
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
-        "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
-        "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Thin Wall@5.2,"
+        "Sheen Tint, Sheen Roughness, Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Normal", left_out=(("Roughness", 0.0),), no_meaning="Weight"),
     "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
-    "ShaderNodeBsdfAnisotropic": Inputs(
-        "Color, Roughness, Normal", left_out=(("Anisotropy", 0.0),), no_meaning="Rotation, Tangent, Weight"
-    ),
+    "ShaderNodeBsdfAnisotropic": Inputs("Color, Roughness, Normal, Anisotropy, Rotation, Tangent", no_meaning="Weight"),
     "ShaderNodeBsdfMetallic": Inputs(
-        "Base Color, Edge Tint, Roughness, Normal",
-        left_out=(("Anisotropy", 0.0), *_THIN_FILM),
-        no_meaning="IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
+        "Base Color, Edge Tint, Roughness, Normal, IOR, Extinction, Anisotropy, Rotation, Tangent",
+        left_out=_THIN_FILM,
+        no_meaning="Weight, Thin Film IOR@5.0",
     ),
     "ShaderNodeBsdfGlass": Inputs(
         "Color, Roughness, IOR, Normal",

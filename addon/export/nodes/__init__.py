@@ -171,10 +171,18 @@ def number(target: Socket, owner: Owner, unknown: float | None = None) -> Value:
     return _as_number(value, kind)
 
 
-def normal(feed: Socket, owner: Owner) -> Value | None:
-    """What a shader's Normal input is turned to, world space; None: the surface's own."""
-    target = feed.find_input("Normal")
+def normal(feed: Socket, owner: Owner, *identifiers: str) -> Value | None:
+    """What a shader's Normal input, or one of these, is turned to, world space; None: the surface's own."""
+    target = feed.find_input(*(identifiers or ("Normal",)))
     return colour(target, owner) if target is not None and is_linked(target) else owner.displaced_normal
+
+
+def tangent(feed: Socket, owner: Owner) -> Value:
+    """Which way a shader's Tangent input points, world space."""
+    target = feed.find_input("Tangent")
+    if target is not None and is_linked(target):
+        return colour(target, owner)
+    return geometry.default_tangent(Node(feed, owner))
 
 
 def displaced(target: Socket, owner: Owner) -> Owner:

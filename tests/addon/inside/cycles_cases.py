@@ -201,10 +201,10 @@ def _cycles(path: Path, bounces: int) -> None:
     _save(path)
 
 
-def _pivot(path: Path, bounces: int, light_sampling: str) -> None:
+def _pivot(path: Path, bounces: int, light_sampling: str, samples: int = 0) -> None:
     scene = bpy.context.scene
     scene.render.engine = "PIVOT"
-    scene.pivot.samples = PIVOT_SAMPLES[light_sampling]
+    scene.pivot.samples = samples or PIVOT_SAMPLES[light_sampling]
     scene.pivot.max_bounces = bounces
     scene.pivot.light_sampling = light_sampling
     _save(path)

@@ -183,6 +183,20 @@ def _nearest() -> None:
     left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Sheen Weight" if NEW else "Sheen": 1.0}
     shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **left_out)
     feed(shader("fog", "ShaderNodeVolumePrincipled"), "Color", "ShaderNodeTexNoise")
+    kind = "Coat" if NEW else "Clearcoat"
+    lacquer = {"Coat Weight" if NEW else "Clearcoat": 0.5, f"{kind} Roughness": 0.5}
+    shader("lacquered", "ShaderNodeBsdfPrincipled", Base_Color=RED, **lacquer)
+    bumpy = shader("bumpy_beneath", "ShaderNodeBsdfPrincipled", Base_Color=RED, **lacquer)
+    feed(bumpy, "Normal", "ShaderNodeBump")
+    brushed = {"Roughness": 0.5, "Base_Color": RED, "Anisotropic": 0.8, "Anisotropic_Rotation": 0.25, "Metallic": 1}
+    shader("brushed", "ShaderNodeBsdfPrincipled", **brushed)
+    glossy = {"Color": RED, "Roughness": 0.5, "Rotation": 0.25}
+    for name, anisotropy in (("across", 0.75), ("along", -0.75)):
+        shader(name, "ShaderNodeBsdfAnisotropic", Anisotropy=anisotropy, **glossy).distribution = "GGX"
+    if bpy.app.version >= (4, 3):
+        silver = shader("silver", "ShaderNodeBsdfMetallic", Roughness=0.5, Anisotropy=0.8)
+        silver.fresnel_type = "PHYSICAL_CONDUCTOR"
+        silver.inputs["IOR"].default_value = (0.05, 0.06, 0.05)
 
     smoke = shader("smoke", "ShaderNodeBsdfDiffuse", Color=RED)
     for socket, kind in (("Volume", "ShaderNodeVolumeScatter"), ("Displacement", "ShaderNodeDisplacement")):

@@ -33,6 +33,7 @@ class Material:
     lobes: Any = ()
     transparency: Any = (0, 0, 0)
     opacity: float | None = None
+    conductor_dip: Any = (0, 0, 0)
 
 
 @dataclass
