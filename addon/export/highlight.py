@@ -7,9 +7,6 @@ from typing import Any
 
 from .program import Program, Value
 
-_SCALED = ("conductor_f0", "conductor_f90", "conductor_dip", "color")
-_SHARES = ("conductor_weight", "dielectric_weight")
-
 
 @dataclass(frozen=True)
 class Highlight:
@@ -20,6 +17,7 @@ class Highlight:
 
     kind: str  # "anisotropic" or "conductor"
     curve: tuple[tuple[str, Value], ...]
+    color: Value
     alpha_x: Value
     alpha_y: Value
     rotation: Value
@@ -31,12 +29,7 @@ class Highlight:
         return self.alpha_x != self.alpha_y
 
     def scaled(self, weight: Value) -> Highlight:
-        values = dict(self.curve)
-        scaled = {name: value * weight for name, value in values.items() if name in _SCALED}
-        scaled |= {name: value * share(weight) for name, value in values.items() if name in _SHARES}
-        if "dielectric_tint" in values:
-            scaled["dielectric_tint"] = values["dielectric_tint"] * hue(weight)
-        return replace(self, curve=tuple((values | scaled).items()))
+        return replace(self, color=self.color * weight)
 
     def base(self) -> dict[str, Any]:
         """What a base has of it: as rough all around, about the surface's normal."""
@@ -44,47 +37,41 @@ class Highlight:
         return self._curve_of_base() | {"alpha": alpha, "multiscatter": self.multiscatter}
 
     def _curve_of_base(self) -> dict[str, Value]:
-        values = dict(self.curve)
-        if self.kind == "anisotropic":
-            return values
-        n, k, color = (values[name] for name in ("n", "k", "color"))
-        less, more = n - 1.0, n + 1.0
-        f0 = color * ((less * less + k * k) / (more * more + k * k))
-        return {"conductor_f0": f0, "conductor_f90": color, "conductor_weight": share(color)}
+        values, part = dict(self.curve), share(self.color)
+        if self.kind == "conductor":
+            less, more, k2 = values["n"] - 1.0, values["n"] + 1.0, values["k"] * values["k"]
+            f0 = (less * less + k2) / (more * more + k2)
+            return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}
+        scaled = dict.fromkeys(("conductor_f0", "conductor_f90", "conductor_dip"), self.color)
+        scaled |= {"conductor_weight": part, "dielectric_weight": part, "dielectric_tint": hue(self.color)}
+        return {name: value * scaled[name] if name in scaled else value for name, value in values.items()}
 
     def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
         """As Surface.core_shader gives lobes to the core: a further base where that is the same."""
         multiscatter = {"multiscatter": float(self.multiscatter)}
-        if self.kind == "anisotropic" and not self.is_anisotropic and self.normal is None:
-            return "base", dict(self.curve) | {"alpha": self.alpha_x}, multiscatter
-        axes = {"alpha_x": self.alpha_x, "alpha_y": self.alpha_y, "rotation": self.rotation}
+        is_grey = len(set(self.color.parts)) == 1
+        if self.kind == "anisotropic" and not self.is_anisotropic and self.normal is None and is_grey:
+            return "base", self._curve_of_base() | {"alpha": self.alpha_x}, multiscatter
+        own = {"color": self.color, "alpha_x": self.alpha_x, "alpha_y": self.alpha_y, "rotation": self.rotation}
         if self.normal is not None:
-            axes["normal"] = self.normal.program.registers(self.normal)
-        return self.kind, dict(self.curve) | axes, multiscatter
+            own["normal"] = self.normal.program.registers(self.normal)
+        return self.kind, dict(self.curve) | own, multiscatter
 
 
 def share(weight: Value) -> Value:
     """The one number of a weight that may be a colour."""
-    return weight if len(weight.parts) == 1 else weight.mean()
+    return weight[0] if len(set(weight.parts)) == 1 else weight.mean()
 
 
 def hue(weight: Value) -> Value:
     """What of a weight its share leaves out."""
-    return weight.program.colour((1, 1, 1)) if len(weight.parts) == 1 else weight / share(weight)
+    return weight.program.colour((1, 1, 1)) if len(set(weight.parts)) == 1 else weight / share(weight)
 
 
 def coat(program: Program, alpha: Value, ior: Value, weight: Value, normal: Value | None) -> Highlight:
-    black, zero = program.colour((0, 0, 0)), program.number(0.0)
-    curve = {
-        "conductor_f0": black,
-        "conductor_f90": black,
-        "conductor_dip": black,
-        "conductor_weight": zero,
-        "dielectric_weight": weight,
-        "dielectric_ior": ior,
-        "dielectric_tint": program.colour((1, 1, 1)),
-    }
-    return Highlight("anisotropic", tuple(curve.items()), alpha, alpha, zero, True, normal)
+    curve = {"conductor_weight": program.number(0.0), "dielectric_weight": weight, "dielectric_ior": ior}
+    white = program.colour((1, 1, 1))
+    return Highlight("anisotropic", tuple(curve.items()), white, alpha, alpha, program.number(0.0), True, normal)
 
 
 def sides(alpha: Value, anisotropic: Value) -> tuple[Value, Value]:

@@ -15,25 +15,34 @@ def rotation(feed: Socket, owner: Owner) -> Value:
     return owner.program.number(0.0) if target is None else number(target, owner)
 
 
-def brushed(whole: Surface, curve: dict[str, Value], feed: Socket, owner: Owner) -> Surface:
+_CURVE = (
+    "conductor_f0", "conductor_f90", "conductor_dip", "conductor_weight", "dielectric_weight", "dielectric_ior",
+    "dielectric_tint",
+)  # fmt: skip
+
+
+def brushed(whole: Surface, feed: Socket, owner: Owner) -> Surface:
     """Principled with its highlight as anisotropic as it is."""
     if is_constant(feed.input("Anisotropic"), 0.0) or whole.gloss() == 0:
         return whole
-    program, dull = owner.program, Surface.of(owner.program)
-    alpha_x, alpha_y = sides(whole.alpha, number(feed.input("Anisotropic"), owner))
+    alphas = sides(whole.alpha, number(feed.input("Anisotropic"), owner))
+    return replace(_apart(whole, *alphas, rotation(feed, owner)), tangent=tangent(feed, owner))
+
+
+def _apart(whole: Surface, alpha_x: Value, alpha_y: Value, turns: Value) -> Surface:
+    """A base with its highlight beside it, and beneath that what the base itself would leave to its diffuse lobe."""
+    program, dull = whole.program, Surface.of(whole.program)
     reaches = program.number(1.0)
     if not whole.dielectric_weight.is_always(0):
-        alpha = (alpha_x * alpha_y).root()
+        alpha = alpha_x if alpha_x == alpha_y else (alpha_x * alpha_y).root()
         reaches = _beneath(
             program, whole.normal, alpha, whole.dielectric_ior, whole.dielectric_tint, whole.multiscatter
         )[0]
-    highlight = Highlight(
-        "anisotropic", tuple(curve.items()), alpha_x, alpha_y, rotation(feed, owner), whole.multiscatter
-    )
-    none = {name: getattr(dull, name) for name in ("alpha", *curve)}
-    return replace(
-        whole, **none, diffuse=whole.diffuse * reaches, highlights=(highlight,), tangent=tangent(feed, owner)
-    )
+    curve = tuple((name, getattr(whole, name)) for name in _CURVE)
+    white = program.colour((1, 1, 1))
+    highlight = Highlight("anisotropic", curve, white, alpha_x, alpha_y, turns, whole.multiscatter)
+    none = {name: getattr(dull, name) for name in ("alpha", *_CURVE)}
+    return replace(whole, **none, diffuse=whole.diffuse * reaches, highlights=(*whole.highlights, highlight))
 
 
 def _beneath(
@@ -63,6 +72,8 @@ def coated(whole: Surface, feed: Socket, owner: Owner) -> Surface:
     tint = colour(feed.input("Coat Tint"), owner).at_least(0.0) if is_new else white
     if not tint.is_always(1):
         left = program.mixed(weight, white, program.each("math_power", tint, path)) * left
+        if whole.gloss() > 0:  # a base's dielectric has no colour that scales it at every angle
+            whole = _apart(whole, whole.alpha, whole.alpha, program.number(0.0))
     normal_of_coat = None if turned == whole.normal else program.op("normal") if turned is None else turned
     coats = () if ior.is_always(1) else (coat(program, alpha, ior, weight, normal_of_coat),)
     beneath = replace(whole.scaled(left), opacity=whole.opacity)

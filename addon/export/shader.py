@@ -146,8 +146,7 @@ def _metallic(feed: Socket, owner: Owner) -> Surface:
     alphas = None if is_constant(anisotropy, 0.0) else sides(alpha, number(anisotropy, owner))
     if feed.node.fresnel_type == "PHYSICAL_CONDUCTOR":
         n, k = (colour(feed.input(name), owner).at_least(0.0) for name in ("IOR", "Extinction"))
-        curve = {"n": n, "k": k, "color": owner.program.colour((1, 1, 1))}
-        return _metal(feed, owner, curve, alpha, alphas or (alpha, alpha), "conductor")
+        return _metal(feed, owner, {"n": n, "k": k}, alpha, alphas or (alpha, alpha), "conductor")
     base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
     return _metal(feed, owner, f82(base, edge_tint, owner.program.number(1.0)), alpha, alphas)
 
@@ -157,16 +156,16 @@ def _metal(
     owner: Owner,
     curve: dict[str, Value],
     alpha: Value,
-    sides: tuple[Value, Value] | None = None,
+    alphas: tuple[Value, Value] | None = None,
     kind: str = "anisotropic",
 ) -> Surface:
-    """A highlight alone. sides: GGX alpha along the tangent and across it, if it is one of those."""
-    turned = normal(feed, owner)
-    if sides is None:
-        return Surface.of(owner.program, **curve, alpha=alpha, multiscatter=_multiscatter(feed, owner), normal=turned)
+    """A highlight alone. alphas: GGX alpha along the tangent and across it, if it is one of axes of its own."""
+    turned, multiscatter, white = normal(feed, owner), _multiscatter(feed, owner), owner.program.colour((1, 1, 1))
+    if alphas is None:
+        return Surface.of(owner.program, **curve, alpha=alpha, multiscatter=multiscatter, normal=turned)
     return Surface.of(
         owner.program,
-        highlights=(Highlight(kind, tuple(curve.items()), *sides, rotation(feed, owner), _multiscatter(feed, owner)),),
+        highlights=(Highlight(kind, tuple(curve.items()), white, *alphas, rotation(feed, owner), multiscatter),),
         tangent=tangent(feed, owner),
         normal=turned,
     )
@@ -232,7 +231,7 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
-    whole = coated(brushed(whole, curve, feed, owner), feed, owner)
+    whole = coated(brushed(whole, feed, owner), feed, owner)
     opacity = number(feed.input("Alpha"), owner).clamped()
     if opacity.is_always(1):
         return whole

@@ -76,6 +76,7 @@ struct BaseCurves {
         T dielectric_weight = T(0);
         T dielectric_ior = T(1.5f);
         Vec3<T> dielectric_tint{T(1)};
+        Vec3<T> color{T(1)};  ///< scales what it reflects
     };
     static constexpr std::string_view name = "anisotropic";
     static constexpr float most = std::numeric_limits<float>::max();
@@ -83,7 +84,7 @@ struct BaseCurves {
         LobeParameter{"conductor_f0", 3, 0.0f, most},      LobeParameter{"conductor_f90", 3, 0.0f, most},
         LobeParameter{"conductor_dip", 3, 0.0f, most},     LobeParameter{"conductor_weight", 1, 0.0f, most},
         LobeParameter{"dielectric_weight", 1, 0.0f, most}, LobeParameter{"dielectric_ior", 1, 1.0f, most},
-        LobeParameter{"dielectric_tint", 3, 0.0f, most}};
+        LobeParameter{"dielectric_tint", 3, 0.0f, most},   LobeParameter{"color", 3, 0.0f, most}};
 
     LobeFresnelOf<T> fresnel;
 
@@ -98,7 +99,10 @@ struct BaseCurves {
                                                            .multiscatter = multiscatter,
                                                            .conductor_dip = p.conductor_dip},
                                          wo);
-        return {base.fresnel};
+        LobeFresnelOf<T> fresnel = base.fresnel;
+        fresnel.schlick_f0 *= p.color, fresnel.schlick_f90 *= p.color, fresnel.conductor_dip *= p.color;
+        fresnel.dielectric_f0 *= p.color, fresnel.dielectric_f90 *= p.color;
+        return {fresnel};
     }
     Vec3<T> at(T cos_oh) const { return fresnel.at(cos_oh); }
     LobeFresnelOf<T> as_of_base() const { return fresnel; }

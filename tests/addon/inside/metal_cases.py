@@ -93,7 +93,7 @@ def _coats() -> None:
     ]
     nodes = _place(*((PRINCIPLED, "MULTI_GGX", inputs) for inputs in looks))
     bump = _feed(nodes[4], "Normal", "ShaderNodeBump")
-    bump.inputs["Strength"].default_value = 0.3
+    bump.inputs["Strength"].default_value, bump.inputs["Distance"].default_value = 0.5, 0.1
     _feed(bump, "Height", "ShaderNodeTexNoise")
 
 
