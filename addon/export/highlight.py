@@ -23,6 +23,7 @@ class Highlight:
     rotation: Value
     multiscatter: bool
     normal: Value | None = None
+    is_coat: bool = False
 
     @property
     def is_anisotropic(self) -> bool:
@@ -71,7 +72,9 @@ def hue(weight: Value) -> Value:
 def coat(program: Program, alpha: Value, ior: Value, weight: Value, normal: Value | None) -> Highlight:
     curve = {"conductor_weight": program.number(0.0), "dielectric_weight": weight, "dielectric_ior": ior}
     white = program.colour((1, 1, 1))
-    return Highlight("anisotropic", tuple(curve.items()), white, alpha, alpha, program.number(0.0), True, normal)
+    return Highlight(
+        "anisotropic", tuple(curve.items()), white, alpha, alpha, program.number(0.0), True, normal, is_coat=True
+    )
 
 
 def sides(alpha: Value, anisotropic: Value) -> tuple[Value, Value]:

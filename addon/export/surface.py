@@ -137,6 +137,8 @@ class Surface:
 
     def without_axes(self, *highlights: Highlight) -> Surface:
         """The surface with some of its highlights as those of bases."""
+        if not highlights:
+            return self
         bases = [Surface.of(self.program, **highlight.base()) for highlight in highlights]
         rest = tuple(highlight for highlight in self.highlights if highlight not in highlights)
         return _surface_of([*self.bases(), *bases], replace(self, highlights=rest))
@@ -197,7 +199,7 @@ def _registers(value: Value) -> list[int]:
 
 
 def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
-    """The sum of two, and whether it is exact: two normals become the first, but highlights' own; two tangents too.
+    """The sum of two, and whether it is exact: two normals become the first, and two tangents.
 
     Bases of which the GGX lobes differ stay beside each other.
     """
@@ -236,6 +238,7 @@ def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
         transparency=beside.transparency,
         opacity=beside.opacity,
         normal=beside.normal,
+        normal_is_own=beside.normal_is_own,
         tangent=beside.tangent,
         further=tuple(further),
         dielectrics=beside.dielectrics,
