@@ -66,12 +66,12 @@ Batch integrate_ltc(const SurfaceBatch& batch, const Cap<Batch>& cap) {
 }
 
 /// Relative, of taking F82's weight at the mean s of Schlick's: its second derivative by s, times half the variance of
-/// s over microfacets as rough as these.
+/// s over microfacets as rough as these; of rough ones a light picks some.
 float error_of_f82(const Base& surface, const LobeSums<float>& sums, const Rgb& reflected) {
     const float s = std::clamp(sums.schlick / std::max(sums.plain, tiny<float>), 1e-6f, 1.0f);
     const float bend = std::abs(0.24f * std::pow(s, -0.8f) - 0.56f * std::pow(s, -0.6f));
     const float m = std::pow(s, 0.2f), sin2_oh = 1.0f - sqr(1.0f - m);
-    const float variance = sqr(5.0f * sqr(sqr(m))) * sin2_oh * sqr(0.5f * surface.alpha);
+    const float variance = sqr(5.0f * sqr(sqr(m))) * sin2_oh * sqr(0.5f * std::min(surface.alpha, 0.25f));
     const float off = 0.5f * bend * variance * sums.plain * mean_component(surface.fresnel.conductor_dip);
     return off / std::max(mean_component(reflected), tiny<float>);
 }

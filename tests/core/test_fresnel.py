@@ -6,6 +6,7 @@ import numpy as np
 import pivot_core
 import pytest
 from numpy.typing import NDArray
+from scenes import add_plane, place, render, set_camera
 
 Floats = NDArray[np.float64]
 F0, TINT = np.array([0.9, 0.5, 0.1]), np.array([0.2, 0.6, 1.0])
@@ -73,3 +74,19 @@ def test_conductors() -> None:
     perpendicular = (size2 - 2 * N * c + c**2) / (size2 + 2 * N * c + c**2)
     np.testing.assert_allclose(found, (parallel + perpendicular) / 2, rtol=1e-4)
     np.testing.assert_allclose(found, conductor(COSINES), atol=0.04)
+
+
+@pytest.mark.parametrize("alpha", [0.05, 0.2, 0.5])
+def test_the_analytic_integrator_knows_f82(alpha: float) -> None:
+    """At grazing view, where F82 takes most: within the error that it predicts."""
+    dip = tuple(schlick(np.array([1 / 7]))[0] * (1 - TINT) / (1 / 7 * (6 / 7) ** 6))
+    metal = pivot_core.Material(alpha=alpha, conductor_f0=tuple(F0), conductor_f90=(1, 1, 1), conductor_dip=dip)
+    scene = pivot_core.Scene()
+    scene.add_instances("floor", add_plane(scene, 50.0), place(), [scene.add_material("floor", metal)])
+    scene.add_light("lamp", pivot_core.SphereLight((0, 4, 1.3), 0.6, (3, 3, 3)))
+    set_camera(scene, (0, -3, 0.8), size=(6, 6), half_width=0.1)
+    ours = render(scene, integrator="ANALYTIC", samples=4)[..., :3].astype(float).mean((0, 1))
+    error = render(scene, "Error", integrator="ANALYTIC", samples=4).mean()
+    random = render(scene, samples=1024, max_bounces=0)[..., :3].astype(float).mean((0, 1))
+    assert abs(ours.mean() / random.mean() - 1) < error + 0.003
+    np.testing.assert_allclose(ours, random, rtol=max(2 * error, 0.01))
