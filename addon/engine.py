@@ -118,7 +118,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called when the Rendered viewport opens and after each edit."""
         self.viewport = self.viewport or Viewport()
-        self.viewport.update(self, depsgraph)
+        self.viewport.update(self, context, depsgraph)
 
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called whenever the 3D view is drawn, also when only the view has moved."""

@@ -98,6 +98,7 @@ void Session::start() {
         const std::lock_guard lock(mutex_);
         fault_ = fault;
         has_ended_ = true;
+        end_time_ = std::chrono::steady_clock::now();
         ended_.notify_all();
     });
 }
@@ -121,6 +122,13 @@ double Session::progress() const {
     if (!(settings_.time_limit_s > 0.0f)) return of_samples;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_time_;
     return std::clamp(elapsed.count() / static_cast<double>(settings_.time_limit_s), of_samples, 1.0);
+}
+
+double Session::elapsed_s() const {
+    const std::lock_guard lock(mutex_);
+    const std::chrono::duration<double> elapsed =
+        (has_ended_ ? end_time_ : std::chrono::steady_clock::now()) - start_time_;
+    return elapsed.count();
 }
 
 std::vector<std::string> Session::bad_samples() const {

@@ -16,8 +16,6 @@ from .context import Context
 
 ViewPlane = tuple[float, float, float, float]  # (left, right, bottom, top) at z = -1 in camera space
 
-_ORTHOGRAPHIC_DISTANCE = 100.0  # of the camera that stands in for an orthographic viewport, in view widths
-
 
 @dataclass(frozen=True)
 class Frame:
@@ -106,36 +104,3 @@ def without_scale(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
         length = math.sqrt(float(np.sum(matrix[:3, axis] ** 2)))
         result[:3, axis] = matrix[:3, axis] / length if length > 0 else math.nan
     return result
-
-
-@dataclass(frozen=True)
-class RegionView:
-    """A camera that sees what a 3D view does."""
-
-    camera_to_world: NDArray[np.float64]  # (4, 4)
-    view_plane: ViewPlane
-    clip_m: tuple[float, float]
-
-    def same_as(self, other: RegionView | None) -> bool:
-        return (
-            other is not None
-            and bool(np.array_equal(self.camera_to_world, other.camera_to_world))
-            and (self.view_plane, self.clip_m) == (other.view_plane, other.clip_m)
-        )
-
-
-def region_view(region: bpy.types.RegionView3D, space: bpy.types.SpaceView3D) -> RegionView:
-    """The camera of a 3D view; an orthographic one is seen from far off."""
-    camera_to_world = np.array(region.view_matrix.inverted())
-    projection = np.array(region.window_matrix)
-    orthographic = projection[3, 3] == 1
-    # A point (x, y, -1) projects to scale * x + offset in -1..1; without perspective any (x, y, z) does.
-    scale = projection[[0, 1], [0, 1]]
-    offset = projection[:2, 3] if orthographic else -projection[:2, 2]
-    (left, bottom), (right, top) = ((side - offset) / scale for side in (-1, 1))
-    if not orthographic:
-        return RegionView(camera_to_world, (left, right, bottom, top), (space.clip_start, space.clip_end))
-    distance = _ORTHOGRAPHIC_DISTANCE * (right - left)
-    camera_to_world[:3, 3] += distance * camera_to_world[:3, 2]
-    plane = (left / distance, right / distance, bottom / distance, top / distance)
-    return RegionView(camera_to_world, plane, (0.0, distance + space.clip_end))

@@ -78,17 +78,19 @@ def export_scene(
     reporter: Reporter,
     check_cancel: Callable[[], None],
     cache: ImageCache | None = None,
+    is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. cache: of exports before and to come. Keeps nothing of the
-    depsgraph but in the Context returned. Raises RenderError naming the object at fault.
+    check_cancel: called between objects, may raise. cache: of exports before and to come. is_shown: of an evaluated
+    object; None: all are. Keeps nothing of the depsgraph but in the Context returned. Raises RenderError naming the
+    object at fault.
     """
     images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
     context = Context(core, core.Scene(), depsgraph, reporter, images)
     _report_settings(context)
     world_shines = export_world(context)
-    _Exporter(context, check_cancel, world_shines).export_objects()
+    _Exporter(context, check_cancel, world_shines).export_objects(is_shown)
     return context
 
 
@@ -118,14 +120,14 @@ class _Exporter:
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
 
-    def export_objects(self) -> None:
+    def export_objects(self, is_shown: Callable[[bpy.types.Object], bool] | None) -> None:
         instances = self._context.depsgraph.object_instances
         told = Instances.read(instances)
         layer = self._context.depsgraph.view_layer_eval
         for index, instance in enumerate(instances):
-            if not instance.show_self:
-                continue
             blender_object = instance.object
+            if not instance.show_self or not (is_shown is None or is_shown(blender_object)):
+                continue
             if blender_object.type == "LIGHT":
                 export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
             elif layer.use_solid and blender_object.type == "MESH":

@@ -706,6 +706,11 @@ class Session:
         The first few samples that were not finite and were left out, by pixel and object.
         """
     @property
+    def elapsed_s(self) -> float:
+        """
+        Since start(), until the render has ended.
+        """
+    @property
     def height(self) -> int: ...
     @property
     def pixel_samples(self) -> int:

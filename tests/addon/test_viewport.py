@@ -37,6 +37,31 @@ def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
+def views(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return in_a_window("viewport_view_case", tmp_path_factory.mktemp("views"))
+
+
+def test_views_show_what_is_theirs_where_it_belongs(views: Any) -> None:
+    seen = {name: (view["found"], view["expected"]) for name, view in views.items() if "found" in view}
+    assert len(seen) == 17
+    for name, (found, expected) in seen.items():
+        assert found == expected, name
+
+
+def test_only_the_pixels_of_a_render_region_are_rendered(views: Any) -> None:
+    width, height = views["region"]
+    assert views["perspective"]["size"] == [width, height]
+    np.testing.assert_allclose(views["border"]["size"], [width / 2, height / 2], atol=1)
+    np.testing.assert_allclose(views["large pixels"]["size"], [width / 2, height / 2], atol=1)
+    assert views["camera border"]["size"][0] < width / 2
+
+
+def test_no_picture_is_stretched_when_the_region_is_resized(views: Any) -> None:
+    assert len(views["stretched"]) >= 2
+    np.testing.assert_allclose(views["stretched"], 1, atol=0.01)
+
+
+@pytest.fixture(scope="module")
 def motion(tmp_path_factory: pytest.TempPathFactory) -> Any:
     folder = tmp_path_factory.mktemp("motion")
     return in_a_window("viewport_motion_case", folder) | {"output": (folder / "output").read_text()}
