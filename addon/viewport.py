@@ -13,6 +13,7 @@ import bpy
 
 from . import core
 from .export.images import ImageCache
+from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
@@ -43,6 +44,8 @@ class Viewport:
         self._core: Any = None
         self._scene: Any = None  # pivot_core.Scene; None before the first export and after a fault
         self._images = ImageCache()
+        self._meshes: MeshCache | None = None
+        self._layer: Any = None  # that the meshes are of
         self._pace = Pace()
         self._session: Any = None
         self._is_first = False  # whether the session is to give the first picture of its view
@@ -63,6 +66,8 @@ class Viewport:
         Only here may Blender's data be written to, which reading some images needs.
         """
         space = context.space_data
+        if self._meshes is not None:
+            self._meshes.forget(depsgraph.updates)
         moved_on = self._frame not in {None, depsgraph.scene.frame_current}
         if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph, space) != self._visible:
             self._stale = True
@@ -109,11 +114,15 @@ class Viewport:
         self._scene, self._stale, self._visible = None, False, _visible(depsgraph, space)
         self._local, self._commits = local_parts(space), True
         self._core = core.load()
+        layer = depsgraph.scene.as_pointer(), depsgraph.view_layer.name
+        if self._meshes is None or self._layer != layer:
+            self._meshes, self._layer = MeshCache(self._core), layer
         reporter = Reporter(_print_warning, self._said)
         self._warnings = reporter.warnings
         is_shown = None if shows_all(space) else lambda shown: shown.visible_in_viewport_get(space)
-        exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, is_shown)
+        exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, self._meshes, is_shown)
         self._images.sweep()
+        self._meshes.sweep()
         self._scene = exported.scene
         self._frame = exported.images.frame if exported.images.shows_frames else None
 

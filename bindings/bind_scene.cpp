@@ -192,10 +192,23 @@ void register_lights(py::module_& module) {
 void register_scene(py::module_& module) {
     register_lights(module);
     constexpr float infinity = std::numeric_limits<float>::infinity();
+    py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh", "A scene's mesh, for scenes to come.");
+    py::class_<SharedMeshes, std::shared_ptr<SharedMeshes>>(
+        module, "SharedMeshes", "What scenes share that are made one after the other: meshes and their BVHs.")
+        .def(py::init<>());
     py::class_<Scene, std::shared_ptr<Scene>>(
         module, "Scene",
         "Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.")
         .def(py::init<>())
+        .def(py::init<std::shared_ptr<SharedMeshes>>(), py::arg("shared"),
+             "One of several that take meshes from each other.")
+        .def(
+            "mesh", [](const Scene& scene, std::uint32_t id) { return std::const_pointer_cast<Mesh>(scene.mesh(id)); },
+            py::arg("id"))
+        .def(
+            "add_shared_mesh", [](Scene& scene, const std::shared_ptr<Mesh>& mesh) { return scene.add_mesh(mesh); },
+            py::arg("mesh"),
+            "A mesh of another scene that was made with the same SharedMeshes. Returns its id in this one.")
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("corner_vertices"),
              py::arg("triangle_corners"), py::arg("corner_normals") = py::none(),
              py::arg("vertex_normals") = py::none(), py::arg("triangle_slots") = py::none(),

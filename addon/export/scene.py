@@ -22,6 +22,7 @@ from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable, Slots
 from .mesh import edits_applied, mesh_arrays
+from .mesh_cache import MeshCache
 from .smoke import has_smoke, smoke_domain, smoke_grids
 from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
@@ -78,19 +79,21 @@ def export_scene(
     reporter: Reporter,
     check_cancel: Callable[[], None],
     cache: ImageCache | None = None,
+    meshes: MeshCache | None = None,
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. cache: of exports before and to come. is_shown: of an evaluated
-    object; None: all are. Keeps nothing of the depsgraph but in the Context returned. Raises RenderError naming the
-    object at fault.
+    check_cancel: called between objects, may raise. cache, meshes: of exports before and to come. is_shown: of an
+    evaluated object; None: all are. Keeps nothing of the depsgraph but in the Context returned. Raises RenderError
+    naming the object at fault.
     """
     images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
-    context = Context(core, core.Scene(), depsgraph, reporter, images)
+    scene = core.Scene() if meshes is None else core.Scene(meshes.shared)
+    context = Context(core, scene, depsgraph, reporter, images)
     _report_settings(context)
     world_shines = export_world(context)
-    _Exporter(context, check_cancel, world_shines).export_objects(is_shown)
+    _Exporter(context, check_cancel, world_shines, meshes).export_objects(is_shown)
     return context
 
 
@@ -110,8 +113,11 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 
 class _Exporter:
-    def __init__(self, context: Context, check_cancel: Callable[[], None], world_shines: bool) -> None:
+    def __init__(
+        self, context: Context, check_cancel: Callable[[], None], world_shines: bool, meshes: MeshCache | None
+    ) -> None:
         self._context = context
+        self._cache = meshes
         self._check_cancel = check_cancel
         self._materials = MaterialTable(context, world_shines)
         # By the evaluated data's address, what is read, and the slots whose faces rays pass.
@@ -238,17 +244,23 @@ class _Exporter:
 
         The core lets rays pass all of an instance's faces or none. mesh: that, with what is edited in Edit Mode.
         """
-        names = frozenset(filter(is_of_mesh, slots.attributes))
+        names, last_slot = frozenset(filter(is_of_mesh, slots.attributes)), len(slots.ids) - 1
         key = (blender_object.data.as_pointer(), names, slots.without_surface)
-        if key not in self._meshes:
+
+        def add() -> list[tuple[int, bool]]:
             fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"
             with naming(f"object '{blender_object.name}'", fix):
                 arrays = mesh_arrays(mesh)
                 attributes = vars(mesh_attributes(mesh, arrays, names))
-                self._meshes[key] = [
+                return [
                     (self._context.scene.add_mesh(blender_object.name, **vars(part), **attributes), is_passed)
-                    for part, is_passed in arrays.parted(slots.without_surface, last_slot=len(slots.ids) - 1)
+                    for part, is_passed in arrays.parted(slots.without_surface, last_slot)
                 ]
+
+        if key not in self._meshes:
+            how = (names, slots.without_surface, last_slot if slots.without_surface else None)
+            cache, scene = self._cache, self._context.scene
+            self._meshes[key] = add() if cache is None else cache.take(scene, blender_object, how, add)
         return self._meshes[key]
 
     def _add_instances(self, group: _Group, indices: list[int], told: Instances) -> None:

@@ -23,11 +23,13 @@ __all__: list[str] = [
     "MAX_LOBES",
     "Material",
     "Medium",
+    "Mesh",
     "Program",
     "RenderSettings",
     "Scene",
     "Session",
     "Shader",
+    "SharedMeshes",
     "SphereLight",
     "SpotLight",
     "SunLight",
@@ -440,11 +442,28 @@ class AreaLight:
         ellipse: bool = False,
     ) -> None: ...
 
+class Mesh:
+    """
+    A scene's mesh, for scenes to come.
+    """
+
+class SharedMeshes:
+    """
+    What scenes share that are made one after the other: meshes and their BVHs.
+    """
+    def __init__(self) -> None: ...
+
 class Scene:
     """
     Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.
     """
+    @typing.overload
     def __init__(self) -> None: ...
+    @typing.overload
+    def __init__(self, shared: SharedMeshes) -> None:
+        """
+        One of several that take meshes from each other.
+        """
     def add_instances(
         self,
         name: str,
@@ -486,6 +505,10 @@ class Scene:
     ) -> int:
         """
         positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals (V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and (C, 1..4): what shaders read. Returns the mesh's id.
+        """
+    def add_shared_mesh(self, mesh: Mesh) -> int:
+        """
+        A mesh of another scene that was made with the same SharedMeshes. Returns its id in this one.
         """
     def attribute_id(self, name: str) -> int:
         """
@@ -552,6 +575,7 @@ class Scene:
         """
         Its nodes, the root first, each as (child (n,): a node, or ~light; mean (n, 3), the place, of suns the direction; variance_m2 (n,) of places about it, across any line of sight; bound_m (n,), how far parts are from it at most; intensity (n,) in W/sr towards any side at most, the mean over colours; axis (n, 3), where it shines most, or 0; sharpness (n,) of that Gaussian).
         """
+    def mesh(self, id: typing.SupportsInt | typing.SupportsIndex) -> Mesh: ...
     def occluded(
         self,
         origins: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],

@@ -1,4 +1,4 @@
-// Closest hits and occlusion over instanced meshes. The only place that knows Embree.
+// Closest hits and occlusion over instanced meshes. It alone, and the BVHs of mesh_bvhs.h, know Embree.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "core/geometry/mesh.h"
 #include "core/math/transform.h"
+#include "core/scene/mesh_bvhs.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
@@ -53,14 +54,14 @@ struct Crossing {
 
 class RayTracer {
    public:
-    /// finds_crossings: it serves crossings() alone.
-    explicit RayTracer(bool finds_crossings = false);
+    /// shared: BVHs of large meshes, which it then traces each in its own space. finds_crossings: it serves
+    /// crossings() alone.
+    explicit RayTracer(std::shared_ptr<MeshBvhs> shared = nullptr, bool finds_crossings = false);
     ~RayTracer();
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;
 
-    /// The mesh's vectors are read in place: they must outlive the tracer and keep their addresses.
-    void set_mesh(std::uint32_t mesh_id, const Mesh& mesh);
+    void set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh);
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
     /// Who sees an instance; at once, and without a build.

@@ -106,16 +106,23 @@ std::optional<Light>& Scene::light_at(std::uint32_t id) {
 
 std::uint32_t Scene::add_mesh(Mesh mesh) {
     require_valid(mesh);
+    return add_mesh(std::make_shared<const Mesh>(std::move(mesh)));
+}
+
+std::uint32_t Scene::add_mesh(std::shared_ptr<const Mesh> mesh) {
     const auto edit = begin_edit();
     const auto id = static_cast<std::uint32_t>(meshes_.size());
-    meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
-    ray_tracer_.set_mesh(id, *meshes_.back());
+    ray_tracer_.set_mesh(id, mesh);
+    meshes_.push_back(std::move(mesh));
     return id;
 }
 
+std::shared_ptr<const Mesh> Scene::mesh(std::uint32_t id) const { return at(meshes_, id, "mesh"); }
+
 std::uint32_t Scene::attribute_id(const std::string& name) {
-    const auto id = static_cast<std::uint32_t>(std::ranges::find(attribute_names_, name) - attribute_names_.begin());
-    if (id == attribute_names_.size()) attribute_names_.push_back(name);
+    std::vector<std::string>& names = shared_ ? shared_->attribute_names : attribute_names_;
+    const auto id = static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
+    if (id == names.size()) names.push_back(name);
     return id;
 }
 

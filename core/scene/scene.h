@@ -21,9 +21,21 @@ struct NamedLight {
     std::optional<Light> light;  ///< none: removed
 };
 
+/// What scenes share that are made one after the other, as edits ask for, of meshes that are mostly the same.
+struct SharedMeshes {
+    std::shared_ptr<MeshBvhs> bvhs = std::make_shared<MeshBvhs>();
+    std::vector<std::string> attribute_names;  ///< an id is a place
+};
+
 class Scene {
    public:
+    Scene() = default;
+    explicit Scene(std::shared_ptr<SharedMeshes> shared) : shared_(std::move(shared)), ray_tracer_(shared_->bvhs) {}
+
     std::uint32_t add_mesh(Mesh mesh);
+    /// One that another scene has, by the same SharedMeshes.
+    std::uint32_t add_mesh(std::shared_ptr<const Mesh> mesh);
+    std::shared_ptr<const Mesh> mesh(std::uint32_t id) const;
     /// The id of a mesh's attribute by its name, the same for all meshes.
     std::uint32_t attribute_id(const std::string& name);
     std::uint32_t add_material(const std::string& name, Shader shader);
@@ -140,8 +152,9 @@ class Scene {
     bool shines(std::size_t instance) const;
     LightReach light_reach() const;
 
-    std::vector<std::unique_ptr<const Mesh>> meshes_;
-    std::vector<std::string> attribute_names_;
+    std::shared_ptr<SharedMeshes> shared_;  ///< none: it is alone
+    std::vector<std::shared_ptr<const Mesh>> meshes_;
+    std::vector<std::string> attribute_names_;  ///< where it is alone
     std::vector<Shader> shaders_;
     std::vector<std::optional<Instance>> instances_;
     std::vector<NamedLight> added_lights_;

@@ -62,6 +62,24 @@ def test_no_picture_is_stretched_when_the_region_is_resized(views: Any) -> None:
 
 
 @pytest.fixture(scope="module")
+def edits(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return in_a_window("viewport_edit_case", tmp_path_factory.mktemp("edits"))
+
+
+def test_after_any_edit_the_scene_is_as_one_exported_anew(edits: Any) -> None:
+    assert edits["edits"] >= 100
+    assert edits["wrong"] == []
+
+
+def test_an_edit_exports_only_the_meshes_that_it_changes(edits: Any) -> None:
+    assert [edits["meshes"][kind] for kind in ("color", "power", "move_lamp")] == [0, 0, 0]
+    assert edits["meshes"]["vertices"] >= 1
+    assert edits["triangles"] >= 990_000
+    for moved in ("object", "lamp"):
+        assert edits[moved] == {"meshes": 0, "exports": 1, "wrong": []}
+
+
+@pytest.fixture(scope="module")
 def motion(tmp_path_factory: pytest.TempPathFactory) -> Any:
     folder = tmp_path_factory.mktemp("motion")
     return in_a_window("viewport_motion_case", folder) | {"output": (folder / "output").read_text()}

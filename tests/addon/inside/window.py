@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
-POLL_S = 0.05
+POLL_S = 0.02
 
 
 def view() -> tuple[Any, Any]:
