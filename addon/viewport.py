@@ -17,7 +17,7 @@ from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
-from .viewport_draw import Picture, draw_picture, picture
+from .viewport_draw import Picture, draw_picture
 from .viewport_pace import Pace
 from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
@@ -49,7 +49,6 @@ class Viewport:
         self._pace = Pace()
         self._session: Any = None
         self._is_first = False  # whether the session is to give the first picture of its view
-        self._commits = False  # whether it makes the scene ready for rays, too
         self._covers_px: Corners = (0.0, 0.0, 0.0, 0.0)  # by the session's pixels
         self._view: View | None = None  # of the session
         self._settings: dict[str, Any] = {}  # of what it shows
@@ -72,8 +71,10 @@ class Viewport:
         if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph, space) != self._visible:
             self._stale = True
         with _faults_shown(engine):
-            if self._stale and not self._awaits_first_picture(self._take_picture(0.0)):
+            finished = self._take_picture(0.0)
+            if self._stale and not self._awaits_first_picture(finished):
                 self._export(depsgraph, space)
+                self._advance(engine, context, depsgraph, finished=False)
         engine.tag_redraw()
 
     def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
@@ -81,38 +82,54 @@ class Viewport:
         with _faults_shown(engine):
             self._pace.drew()
             finished = self._take_picture(0.0)
-            scene, view = depsgraph.scene, view_of(context, depsgraph)
             if self._local != local_parts(context.space_data):
                 self._stale = True
-            if self._stale:
-                if not self._awaits_first_picture(finished):
+            if not self._awaits_first_picture(finished):
+                if self._stale:
                     engine.tag_update()
-                finished = False
-            elif self._scene is not None and not self._awaits_first_picture(finished):
-                settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
-                finest_px = engine.get_preview_pixel_size(scene)
-                if self._session is None or (view, settings) != (self._view, self._settings):
-                    self._view, self._settings = view, settings
-                    self._start_first(scene, finest_px)
-                    self._take_picture(_WAIT_S)
                     finished = False
-                elif finished and self._is_first:
-                    self._start(scene, finest_px, settings["samples"])
-                    finished = False
+                else:
+                    finished = self._advance(engine, context, depsgraph, finished)
             if self._session is None:
                 return
             if self._picture is not None:
-                draw_picture(engine, scene, self._picture, view)
+                draw_picture(engine, depsgraph.scene, self._picture, view_of(context, depsgraph))
             samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
             engine.update_stats("Pivot", " | ".join(["Finished" if finished else samples, *_in_short(self._warnings)]))
             if not finished:
                 self._watch(engine)
 
+    def _advance(
+        self,
+        engine: bpy.types.RenderEngine,
+        context: bpy.types.Context,
+        depsgraph: bpy.types.Depsgraph,
+        finished: bool,
+    ) -> bool:
+        """Begin what is to be rendered next, where the session is of another view or only gave the first picture.
+
+        finished: whether it has ended. Returns whether all is rendered.
+        """
+        if self._scene is None:
+            return False
+        scene, view = depsgraph.scene, view_of(context, depsgraph)
+        settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
+        finest_px = engine.get_preview_pixel_size(scene)
+        if self._session is None or (view, settings) != (self._view, self._settings):
+            self._view, self._settings = view, settings
+            self._start_first(scene, finest_px)
+            self._take_picture(_WAIT_S)
+            return False
+        if finished and self._is_first:
+            self._start(scene, finest_px, settings["samples"])
+            return False
+        return finished
+
     def _export(self, depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> None:
         """Take over the scene, and say on the console what of it is left out."""
         self._stop()
         self._scene, self._stale, self._visible = None, False, _visible(depsgraph, space)
-        self._local, self._commits = local_parts(space), True
+        self._local = local_parts(space)
         self._core = core.load()
         layer = depsgraph.scene.as_pointer(), depsgraph.view_layer.name
         if self._meshes is None or self._layer != layer:
@@ -134,10 +151,9 @@ class Viewport:
         finished = session.wait(wait_s)
         samples, now_s = session.samples_done, time.monotonic()
         if samples > self._samples_read and (self._samples_read == 0 or finished or now_s > self._read_s + _REDRAW_S):
-            if self._is_first and not self._commits:
-                self._pace.took(session.elapsed_s - session.virtual_lights[2], session.width * session.height)
-            self._commits = False
-            self._picture = picture(session.read("Combined"), self._view, self._covers_px)
+            if self._is_first:
+                self._pace.took(session.sampling_s, session.width * session.height)
+            self._picture = Picture(session.read("Combined"), self._view, self._covers_px)
             self._samples_read, self._read_s = samples, now_s
         return finished
 

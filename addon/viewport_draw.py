@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -14,21 +13,27 @@ from .viewport_view import Corners, View
 _LARGEST_HALF = 65504.0
 
 
-@dataclass(frozen=True)
 class Picture:
-    texture: Any
-    view: View  # that it is of
-    covers_px: Corners  # in the view's region
+    """Its texture is made when it is first drawn: elsewhere there may be nothing to make it with."""
 
+    def __init__(self, pixels: NDArray[np.float32], view: View, covers_px: Corners) -> None:
+        """pixels: (height, width, 4), the bottom row first. covers_px: where they are in the region of the view."""
+        self.view = view
+        self.covers_px = covers_px
+        self._pixels: NDArray[np.float32] | None = pixels
+        self._texture: Any = None
 
-def picture(pixels: NDArray[np.float32], view: View, covers_px: Corners) -> Picture:
-    """pixels: (height, width, 4), the bottom row first."""
-    import gpu
+    @property
+    def texture(self) -> Any:
+        import gpu
 
-    height, width = pixels.shape[:2]
-    values = np.clip(pixels, -_LARGEST_HALF, _LARGEST_HALF).ravel()
-    buffer = gpu.types.Buffer("FLOAT", values.size, values)
-    return Picture(gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer), view, covers_px)
+        if self._pixels is not None:
+            height, width = self._pixels.shape[:2]
+            values = np.clip(self._pixels, -_LARGEST_HALF, _LARGEST_HALF).ravel()
+            buffer = gpu.types.Buffer("FLOAT", values.size, values)
+            self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer)
+            self._pixels = None
+        return self._texture
 
 
 def draw_picture(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, shown: Picture, view: View) -> None:

@@ -97,7 +97,8 @@ void register_render(py::module_& module) {
              "Whether the render has ended within the given time; raises what failed in it.")
         .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")
         .def_property_readonly("progress", &Session::progress, "0..1")
-        .def_property_readonly("elapsed_s", &Session::elapsed_s, "Since start(), until the render has ended.")
+        .def_property_readonly("sampling_s", &Session::sampling_s,
+                               "Since the scene was ready for rays, until the render has ended.")
         .def_property_readonly("samples_done", &Session::samples_done,
                                "Samples complete over the whole window; under adaptive sampling, of those pixels that "
                                "take as many.")

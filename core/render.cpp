@@ -124,11 +124,11 @@ double Session::progress() const {
     return std::clamp(elapsed.count() / static_cast<double>(settings_.time_limit_s), of_samples, 1.0);
 }
 
-double Session::elapsed_s() const {
+double Session::sampling_s() const {
     const std::lock_guard lock(mutex_);
-    const std::chrono::duration<double> elapsed =
-        (has_ended_ ? end_time_ : std::chrono::steady_clock::now()) - start_time_;
-    return elapsed.count();
+    if (sampling_start_ == std::chrono::steady_clock::time_point{}) return 0.0;
+    const auto end = has_ended_ ? end_time_ : std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(end - sampling_start_).count();
 }
 
 std::vector<std::string> Session::bad_samples() const {
@@ -147,6 +147,10 @@ void Session::run() {
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
     if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
+    {
+        const std::lock_guard lock(mutex_);
+        sampling_start_ = clock::now();
+    }
     if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else

@@ -38,8 +38,8 @@ class Session {
     static std::size_t bytes_per_pixel(bool adaptive, bool denoising_passes);
 
     double progress() const;
-    /// Since start(), until the render has ended.
-    double elapsed_s() const;
+    /// Since the scene was ready, until the render has ended.
+    double sampling_s() const;
     std::uint32_t samples_done() const { return samples_done_; }
     /// Of all squares.
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
@@ -95,7 +95,7 @@ class Session {
     mutable std::mutex mutex_;  ///< of what follows
     std::condition_variable ended_;
     bool has_ended_ = false;
-    std::chrono::steady_clock::time_point end_time_;
+    std::chrono::steady_clock::time_point sampling_start_, end_time_;
     std::exception_ptr fault_;
     std::vector<std::string> bad_samples_;
     std::thread thread_;

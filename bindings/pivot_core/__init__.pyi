@@ -730,11 +730,6 @@ class Session:
         The first few samples that were not finite and were left out, by pixel and object.
         """
     @property
-    def elapsed_s(self) -> float:
-        """
-        Since start(), until the render has ended.
-        """
-    @property
     def height(self) -> int: ...
     @property
     def pixel_samples(self) -> int:
@@ -750,6 +745,11 @@ class Session:
     def samples_done(self) -> int:
         """
         Samples complete over the whole window; under adaptive sampling, of those pixels that take as many.
+        """
+    @property
+    def sampling_s(self) -> float:
+        """
+        Since the scene was ready for rays, until the render has ended.
         """
     @property
     def virtual_lights(self) -> tuple[int, int, float]:
