@@ -88,6 +88,7 @@ def draw_denoising(layout: bpy.types.UILayout, pivot: Any) -> None:
     column = layout.column()
     column.enabled = denoise.is_there()
     column.prop(pivot, "denoise")
+    column.prop(pivot, "denoise_viewport", text="Viewport")
     if not column.enabled:
         column.label(text=f"To denoise, {denoise.HOW_TO_GET_IT}", icon="INFO")
 
@@ -100,6 +101,7 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
         pivot = context.scene.pivot
         layout.prop(pivot, "integrator")
         layout.prop(pivot, "samples")
+        layout.prop(pivot, "preview_samples", text="Viewport")
         layout.prop(pivot, "adaptive")
         if pivot.integrator == "MONTE_CARLO":
             budget = layout.column()
@@ -152,6 +154,31 @@ class PIVOT_RENDER_PT_performance(PivotPanel, bpy.types.Panel):
         threads = layout.column()
         threads.enabled = render.threads_mode == "FIXED"
         threads.prop(render, "threads")
+
+
+def _is_rendered(context: bpy.types.Context) -> bool:
+    return context.engine == _ENGINE and context.space_data.shading.type == "RENDERED"
+
+
+class PIVOT_VIEW3D_PT_shading(bpy.types.Panel):
+    bl_label = "Render Pass"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "HEADER"
+    bl_parent_id = "VIEW3D_PT_shading"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _is_rendered(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.space_data.shading.pivot, "render_pass", text="")
+
+
+def _draw_pause(header: Any, context: bpy.types.Context) -> None:
+    """In the header of a 3D view that Pivot renders, as Cycles has it."""
+    if _is_rendered(context):
+        pivot = context.scene.pivot
+        header.layout.prop(pivot, "preview_pause", text="", icon="PLAY" if pivot.preview_pause else "PAUSE")
 
 
 class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
@@ -240,6 +267,7 @@ _CLASSES = (
     PIVOT_RENDER_PT_chart,
     PIVOT_RENDER_PT_film,
     PIVOT_RENDER_PT_performance,
+    PIVOT_VIEW3D_PT_shading,
     PIVOT_VIEWLAYER_PT_passes,
     PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
@@ -263,9 +291,11 @@ def register() -> None:
         bpy.utils.register_class(panel)
     for panel in _built_in_panels():
         panel.COMPAT_ENGINES.add(_ENGINE)
+    bpy.types.VIEW3D_HT_header.append(_draw_pause)
 
 
 def unregister() -> None:
+    bpy.types.VIEW3D_HT_header.remove(_draw_pause)
     for panel in _built_in_panels():
         panel.COMPAT_ENGINES.discard(_ENGINE)
     for panel in reversed(_CLASSES):

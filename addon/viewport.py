@@ -11,14 +11,16 @@ from typing import Any
 
 import bpy
 
-from . import core
+from . import core, denoise
 from .export.images import ImageCache
 from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
+from .viewport_denoise import ViewportDenoiser
 from .viewport_draw import Picture, draw_picture
 from .viewport_pace import Pace
+from .viewport_passes import as_colours, core_name
 from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
 _POLL_S = 0.005  # how soon a first picture is seen to be there
@@ -52,8 +54,13 @@ class Viewport:
         self._covers_px: Corners = (0.0, 0.0, 0.0, 0.0)  # by the session's pixels
         self._view: View | None = None  # of the session
         self._settings: dict[str, Any] = {}  # of what it shows
+        self._mode = "NONE"  # of denoising, in the session
+        self._denoiser = ViewportDenoiser()
+        self._is_clean = False  # whether the session's picture was shown without noise
+        self._is_end_shown = False  # of the session
         self._samples_read = 0  # of the session
         self._read_s = 0.0
+        self._pass = "COMBINED"  # that is shown
         self._picture: Picture | None = None
         self._is_watched = False
 
@@ -71,6 +78,9 @@ class Viewport:
         if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph, space) != self._visible:
             self._stale = True
         with _faults_shown(engine):
+            if depsgraph.scene.pivot.preview_pause:
+                return
+            self._choose(space, depsgraph.scene)
             finished = self._take_picture(0.0)
             if self._stale and not self._awaits_first_picture(finished):
                 self._export(depsgraph, space)
@@ -81,23 +91,42 @@ class Viewport:
         """Draw the picture as it stands, and see that it gets better."""
         with _faults_shown(engine):
             self._pace.drew()
-            finished = self._take_picture(0.0)
-            if self._local != local_parts(context.space_data):
-                self._stale = True
-            if not self._awaits_first_picture(finished):
-                if self._stale:
-                    engine.tag_update()
-                    finished = False
-                else:
-                    finished = self._advance(engine, context, depsgraph, finished)
-            if self._session is None:
-                return
+            if depsgraph.scene.pivot.preview_pause:
+                self._stop()
+                state, finished = "Paused", True
+            else:
+                finished = self._follow(engine, context, depsgraph)
+                samples_done = 0 if self._session is None else self._session.samples_done
+                state = "Finished" if finished else f"Sample {samples_done}/{self._settings.get('samples', 0)}"
             if self._picture is not None:
                 draw_picture(engine, depsgraph.scene, self._picture, view_of(context, depsgraph))
-            samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
-            engine.update_stats("Pivot", " | ".join(["Finished" if finished else samples, *_in_short(self._warnings)]))
-            if not finished:
+            engine.update_stats("Pivot", " | ".join([state, *_in_short(self._warnings)]))
+            if not finished and self._session is not None:
                 self._watch(engine)
+
+    def _follow(
+        self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph
+    ) -> bool:
+        """Take over what there is, and begin what comes next. Returns whether all that is to be shown is there."""
+        self._choose(context.space_data, depsgraph.scene)
+        finished = self._take_picture(0.0)
+        if self._local != local_parts(context.space_data):
+            self._stale = True
+        if self._awaits_first_picture(finished):
+            return False
+        if self._stale:
+            engine.tag_update()
+            return False
+        self._is_end_shown = finished = self._advance(engine, context, depsgraph, finished)
+        return finished and self._denoiser.is_at_rest
+
+    def _choose(self, space: bpy.types.SpaceView3D, scene: bpy.types.Scene) -> None:
+        """Take over what of a session is to be shown."""
+        choice = space.shading.pivot.render_pass, denoise.viewport_mode_of(scene)
+        if choice != (self._pass, self._mode):
+            self._pass, self._mode = choice
+            self._samples_read, self._is_clean = 0, False
+            self._denoiser.forget()
 
     def _advance(
         self,
@@ -113,7 +142,9 @@ class Viewport:
         if self._scene is None:
             return False
         scene, view = depsgraph.scene, view_of(context, depsgraph)
-        settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
+        samples = scene.pivot.preview_samples or sample_count(depsgraph)
+        settings = setting_values(scene, samples, scene.pivot.max_bounces)
+        settings["denoising_passes"] = self._mode != "NONE"
         finest_px = engine.get_preview_pixel_size(scene)
         if self._session is None or (view, settings) != (self._view, self._settings):
             self._view, self._settings = view, settings
@@ -153,9 +184,20 @@ class Viewport:
         if samples > self._samples_read and (self._samples_read == 0 or finished or now_s > self._read_s + _REDRAW_S):
             if self._is_first:
                 self._pace.took(session.sampling_s, session.width * session.height)
-            self._picture = Picture(session.read("Combined"), self._view, self._covers_px)
+            if not self._is_clean:
+                self._show(as_colours(self._pass, session.read(core_name(self._pass))))
             self._samples_read, self._read_s = samples, now_s
+        cleaned = self._denoiser.take()
+        has_what_it_takes = not self._is_first and self._settings["denoising_passes"]
+        if has_what_it_takes and self._mode != "NONE" and self._pass == "COMBINED":
+            if cleaned is not None:
+                self._is_clean = True
+                self._show(cleaned)
+            self._denoiser.offer(self._mode, session, samples, finished)
         return finished
+
+    def _show(self, pixels: Any) -> None:
+        self._picture = Picture(pixels, self._view, self._covers_px)
 
     def _awaits_first_picture(self, finished: bool) -> bool:
         return self._session is not None and self._is_first and not finished
@@ -173,7 +215,9 @@ class Viewport:
         settings = render_settings(self._core, scene, self._settings | {"samples": samples})
         self._session = self._core.Session(self._scene, settings)
         self._session.start()
-        self._is_first, self._samples_read = False, 0
+        self._denoiser.forget()
+        self._is_first = self._is_clean = self._is_end_shown = False
+        self._samples_read = 0
 
     def _stop(self) -> None:
         if self._session is not None:
@@ -182,13 +226,12 @@ class Viewport:
 
     def _has_news(self) -> bool:
         """Whether a draw would show what the last did not."""
-        if self._session.wait(0.0):
-            return True
-        return (
-            not self._is_first
-            and self._session.samples_done > self._samples_read
-            and (self._samples_read == 0 or time.monotonic() > self._read_s + _REDRAW_S)
-        )
+        ended = self._session.wait(0.0)
+        if self._is_first:
+            return ended
+        if self._session.samples_done > self._samples_read:
+            return self._samples_read == 0 or ended or time.monotonic() > self._read_s + _REDRAW_S
+        return self._denoiser.has_result or (ended and not self._is_end_shown)
 
     def _watch(self, engine: bpy.types.RenderEngine) -> None:
         """Have the 3D view drawn as soon as there are news."""

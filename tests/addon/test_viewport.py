@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import shutil
 import subprocess
@@ -11,16 +12,18 @@ from typing import Any
 import numpy as np
 import pytest
 from blender_host import INSIDE, environment
+from numpy.typing import NDArray
 
+Floats = NDArray[np.float32]
 COMMANDS = [shutil.which(name) for name in ("xvfb-run", "blender")]
 pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a Blender with a window")
 
 
-def in_a_window(script: str, folder: Path) -> Any:
+def in_a_window(script: str, folder: Path, *arguments: str) -> Any:
     """What inside/<script>.py, which quits its Blender, wrote to folder/result.json; its output is in folder/output."""
     screen = ["-a", "-s", f"-screen 0 1280x800x24 -fbdir {folder}"]
     blender = ["--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
-    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder)]
+    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder), *arguments]
     done = subprocess.run(command, env=environment(folder), capture_output=True, text=True, timeout=150, check=False)
     output = done.stdout + done.stderr
     (folder / "output").write_text(output)
@@ -59,6 +62,60 @@ def test_only_the_pixels_of_a_render_region_are_rendered(views: Any) -> None:
 def test_no_picture_is_stretched_when_the_region_is_resized(views: Any) -> None:
     assert len(views["stretched"]) >= 2
     np.testing.assert_allclose(views["stretched"], 1, atol=0.01)
+
+
+def denoiser() -> str:
+    """The library of this Python's bpy: Debian's Blender has none."""
+    package = importlib.util.find_spec("bpy")
+    folders = (package and package.submodule_search_locations) or []
+    found = [path for folder in folders for path in Path(folder).glob("lib/libOpenImageDenoise.so*")]
+    return str(found[0]) if found else ""
+
+
+@pytest.fixture(scope="module")
+def passes(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, dict[str, Floats]]:
+    folder = tmp_path_factory.mktemp("passes")
+    result = in_a_window("viewport_pass_case", folder, denoiser())
+    return result, {path.stem: np.load(path)[..., :3] for path in folder.glob("*.npy")}
+
+
+def test_the_viewport_shows_passes(passes: tuple[Any, dict[str, Floats]]) -> None:
+    """At the floor in the middle, and at the lamp to the right, which is half as far."""
+
+    def seen(name: str) -> list[list[float]]:
+        picture = passes[1][name]
+        height, width = picture.shape[:2]
+        return np.round(picture[height // 2, [width // 2, int(0.85 * width)]].astype(float), 1).tolist()
+
+    assert seen("depth") == [[0.5] * 3, [1.0] * 3]
+    assert seen("normal") == [[0.5, 0.5, 1.0]] * 2
+    assert seen("diffuse_color") == [[0.8] * 3, [0.0] * 3]
+    assert seen("emission") == [[0.0] * 3, [5.0, 0.0, 0.0]]
+    assert seen("method")[0] == seen("error")[0] == [0.0] * 3
+    assert seen("analytic method")[0] != [0.0] * 3
+    assert 0 < passes[1]["analytic error"].mean() < passes[1]["analytic combined"].mean()
+    assert 0 < passes[1]["indirect"].mean() < 0.1 * passes[1]["combined"].mean()
+
+
+def test_a_pause_renders_nothing_and_viewport_samples_are_its_own(passes: tuple[Any, dict[str, Floats]]) -> None:
+    result, pictures = passes
+    assert not result["paused"]["renders"]
+    assert result["combined"] == result["resumed"] == {"samples": 2, "rests": True}
+    np.testing.assert_array_equal(pictures["resumed"], pictures["combined"])
+
+
+def test_the_viewport_is_denoised_at_rest(passes: tuple[Any, dict[str, Floats]]) -> None:
+    result, pictures = passes
+    if not result["has denoiser"]:
+        pytest.skip("no Open Image Denoise here")
+    error = {
+        name: float(np.mean((picture.clip(0, 1) - pictures["converged"].clip(0, 1)) ** 2))
+        for name, picture in pictures.items()
+    }
+    assert error["denoise all"] < 0.3 * error["combined"]
+    assert error["denoise indirect"] < error["combined"]
+    assert np.any(pictures["denoise all"] != pictures["denoise indirect"])
+    np.testing.assert_array_equal(pictures["denoise none"], pictures["combined"])
 
 
 @pytest.fixture(scope="module")
