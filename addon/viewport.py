@@ -91,17 +91,20 @@ class Viewport:
         """Draw the picture as it stands, and see that it gets better."""
         with _faults_shown(engine):
             self._pace.drew()
+            finished = True
             if depsgraph.scene.pivot.preview_pause:
                 self._stop()
-                state, finished = "Paused", True
+                state = "Paused"
             else:
                 finished = self._follow(engine, context, depsgraph)
-                samples_done = 0 if self._session is None else self._session.samples_done
-                state = "Finished" if finished else f"Sample {samples_done}/{self._settings.get('samples', 0)}"
+                if self._session is None:
+                    return
+                samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
+                state = "Finished" if finished else samples
             if self._picture is not None:
                 draw_picture(engine, depsgraph.scene, self._picture, view_of(context, depsgraph))
             engine.update_stats("Pivot", " | ".join([state, *_in_short(self._warnings)]))
-            if not finished and self._session is not None:
+            if not finished:
                 self._watch(engine)
 
     def _follow(

@@ -7,7 +7,8 @@ from typing import Any
 
 from . import denoise
 
-_PASSES = ("Combined", "Indirect", "Noisy Image", "Noisy Indirect", "Denoising Albedo", "Denoising Normal")
+_GUIDES = ("Combined", "Denoising Albedo", "Denoising Normal")
+_PASSES = {"ALL": (*_GUIDES, "Noisy Image"), "INDIRECT": (*_GUIDES, "Indirect", "Noisy Indirect")}
 
 
 class ViewportDenoiser:
@@ -33,7 +34,7 @@ class ViewportDenoiser:
         is_better = samples >= 2 * self._samples_begun or (finished and samples > self._samples_begun)
         if samples == 0 or not is_better or self._is_broken or self._is_busy():
             return
-        passes = {name: session.read(name) for name in _PASSES}
+        passes = {name: session.read(name) for name in _PASSES[mode]}
         self._samples_begun = samples
         self._thread = threading.Thread(target=self._clean, args=(mode, passes, self._session_number), daemon=True)
         self._thread.start()

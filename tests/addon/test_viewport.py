@@ -126,6 +126,8 @@ def edits(tmp_path_factory: pytest.TempPathFactory) -> Any:
 def test_after_any_edit_the_scene_is_as_one_exported_anew(edits: Any) -> None:
     assert edits["edits"] >= 100
     assert edits["wrong"] == []
+    assert [wrong for _, wrong in edits["undone"]] == [[]] * 8
+    assert [extent for extent, _ in edits["undone"][:4]] == [1.5, 1, 1.5, 1]
 
 
 def test_an_edit_exports_only_the_meshes_that_it_changes(edits: Any) -> None:

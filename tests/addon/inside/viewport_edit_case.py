@@ -282,7 +282,30 @@ def steps() -> Iterator[Callable[[], bool]]:
         moved.location.x = 1
         yield lambda since_s=since_s: time.monotonic() > since_s + FEW_S and watch.rests()
         result[name] = {"meshes": watch.meshes, "exports": watch.exports - exports, "wrong": differing(watch.viewport)}
+
+    for made in large:
+        bpy.data.objects.remove(made)
+    parts.link("undone", ball(), (0, 0, 0))
+    undone = result["undone"] = []
+    for number in range(2):
+        with window.in_view():
+            bpy.ops.ed.undo_push(message="before")
+        mesh = bpy.data.objects["undone"].data
+        if number % 2 == 0:
+            for vertex in mesh.vertices:
+                vertex.co *= 1.5
+            mesh.update()
+        else:  # what was in the mesh's place comes back to it
+            bpy.data.objects["undone"].data = ball()
+            bpy.data.meshes.remove(mesh)
+        for undo in (bpy.ops.ed.undo_push, bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo):
+            since_s = time.monotonic()
+            with window.in_view():
+                undo()
+            yield lambda since_s=since_s: time.monotonic() > since_s + 5 * FEW_S and watch.rests()
+            extent = max(vertex.co.length for vertex in bpy.data.objects["undone"].data.vertices)
+            undone.append([round(extent, 2), differing(watch.viewport)])
     (window.FOLDER / "result.json").write_text(json.dumps(result))
 
 
-window.follow(steps(), deadline_s=100.0)
+window.follow(steps(), deadline_s=140.0)

@@ -120,4 +120,4 @@ def steps() -> Iterator[Callable[[], bool]]:
     (window.FOLDER / "result.json").write_text(json.dumps(result))
 
 
-window.follow(steps(), deadline_s=120.0)
+window.follow(steps(), deadline_s=140.0)

@@ -183,4 +183,4 @@ def steps() -> Iterator[Callable[[], bool]]:
     (window.FOLDER / "result.json").write_text(json.dumps(result))
 
 
-window.follow(steps(), deadline_s=100.0)
+window.follow(steps(), deadline_s=140.0)
