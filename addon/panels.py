@@ -184,7 +184,10 @@ class PIVOT_OBJECT_PT_ray_visibility(PivotPanel, bpy.types.Panel):
     bl_parent_id = "OBJECT_PT_visibility"
 
     def draw(self, context: bpy.types.Context) -> None:
-        _columns(self).prop(context.object, "visible_camera", text="Camera")
+        column = _columns(self).column()
+        for kind in ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
+            column.prop(context.object, f"visible_{kind}", text=kind.replace("_", " ").title())
+        column.prop(context.object, "is_holdout")
 
 
 class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
@@ -227,12 +230,17 @@ class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
             column.prop(light, "size", text="Size X" if light.shape in {"RECTANGLE", "ELLIPSE"} else "Size")
             if light.shape in {"RECTANGLE", "ELLIPSE"}:
                 column.prop(light, "size_y", text="Y")
+            column.prop(light, "spread")
         else:
             column.prop(light, "shadow_soft_size", text="Radius")
         if light.type == "SPOT":
             column.prop(light, "spot_size", text="Beam Angle")
             column.prop(light, "spot_blend", text="Blend", slider=True)
             column.prop(light, "show_cone")
+        if hasattr(light, "cycles"):
+            casts = light.cycles if hasattr(light.cycles, "cast_shadow") else light
+            column.prop(casts, "cast_shadow" if casts is not light else "use_shadow", text="Cast Shadow")
+            column.prop(light.cycles, "max_bounces")
 
 
 _CLASSES = (

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bindings/arrays.h"
+#include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/scene/scene.h"
 
@@ -87,7 +88,28 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
     return scene.add_mesh(std::move(mesh));
 }
 
-std::uint32_t visibility_of(bool camera_visible) { return camera_visible ? visible_to_all : visible_to_light; }
+using RayNames = std::vector<string>;
+
+/// All but what is named.
+std::uint32_t visibility_of(const RayNames& hidden_from) {
+    std::uint32_t visibility = visible_to_all;
+    for (const string& name : hidden_from)
+        visibility &= ~std::uint32_t{from_name<Visibility>("hidden_from", name,
+                                                           {{"CAMERA", visible_to_camera},
+                                                            {"DIFFUSE", visible_to_diffuse},
+                                                            {"GLOSSY", visible_to_glossy},
+                                                            {"TRANSMISSION", visible_to_transmission},
+                                                            {"VOLUME_SCATTER", visible_to_scatter},
+                                                            {"SHADOW", casts_shadows}})};
+    return visibility;
+}
+
+LightRules rules_of(const RayNames& hidden_from, std::uint32_t max_bounces) {
+    const std::uint32_t visibility = visibility_of(hidden_from);
+    return {.lights = visibility & visible_to_paths,
+            .max_bounces = max_bounces,
+            .casts_shadows = (visibility & casts_shadows) != 0};
+}
 
 std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
     Scene& scene, const std::map<string, std::array<float, 4>>& attributes) {
@@ -98,7 +120,7 @@ std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
 }
 
 std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh, const FloatArray& object_to_world,
-                            const std::vector<std::uint32_t>& materials, bool camera_visible,
+                            const std::vector<std::uint32_t>& materials, const RayNames& hidden_from, bool holdout,
                             const std::array<float, 4>& color, float pass_index, const optional<FloatArray>& random,
                             const optional<FloatArray>& particle_index, const optional<FloatArray>& generated,
                             const optional<FloatArray>& uv, const std::map<string, std::array<float, 4>>& attributes) {
@@ -125,7 +147,7 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
         if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
     }
     const py::gil_scoped_release release;
-    return scene.add_instances({name, mesh, {}, materials, visibility_of(camera_visible)}, transforms, facts);
+    return scene.add_instances({name, mesh, {}, materials, visibility_of(hidden_from), holdout}, transforms, facts);
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
@@ -179,12 +201,15 @@ void register_lights(py::module_& module) {
              py::arg("direction"), py::arg("half_angle_rad"), py::arg("irradiance"));
     py::class_<AreaLight>(module, "AreaLight",
                           "A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards "
-                          "cross(half_u, half_v) with the given radiance.")
+                          "cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less "
+                          "than pi.")
         .def(py::init([](const Triple& center, const Triple& half_u, const Triple& half_v, const Triple& radiance,
-                         bool ellipse) {
-                 return make_area_light(to_vec3(center), to_vec3(half_u), to_vec3(half_v), to_vec3(radiance), ellipse);
+                         bool ellipse, float spread_rad) {
+                 return make_area_light(to_vec3(center), to_vec3(half_u), to_vec3(half_v), to_vec3(radiance), ellipse,
+                                        spread_rad);
              }),
-             py::arg("center"), py::arg("half_u"), py::arg("half_v"), py::arg("radiance"), py::arg("ellipse") = false);
+             py::arg("center"), py::arg("half_u"), py::arg("half_v"), py::arg("radiance"), py::arg("ellipse") = false,
+             py::arg("spread_rad") = pi<float>);
 }
 
 }  // namespace
@@ -205,11 +230,13 @@ void register_scene(py::module_& module) {
              "(C, 1..4): what shaders read. Returns the mesh's id.")
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
-             py::arg("materials"), py::arg("camera_visible") = true,
+             py::arg("materials"), py::arg("hidden_from") = RayNames{}, py::arg("holdout") = false,
              py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f}, py::arg("pass_index") = 0.0f,
              py::arg("random") = py::none(), py::arg("particle_index") = py::none(), py::arg("generated") = py::none(),
              py::arg("uv") = py::none(), py::arg("attributes") = std::map<string, std::array<float, 4>>{},
-             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What "
+             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; "
+             "hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and "
+             "SHADOW; holdout: a camera sees a hole in their place. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
              "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
         .def(
@@ -219,13 +246,24 @@ void register_scene(py::module_& module) {
             py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
             "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
             "nothing but the medium is there.")
-        .def("add_light", &Scene::add_light, py::arg("name"), py::arg("light"))
+        .def(
+            "add_light",
+            [](Scene& scene, const string& name, const Light& light, const RayNames& hidden_from,
+               std::uint32_t max_bounces) { return scene.add_light(name, light, rules_of(hidden_from, max_bounces)); },
+            py::arg("name"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u,
+            "hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and "
+            "VOLUME_SCATTER; "
+            "SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.")
         .def(
             "set_material",
             [](Scene& scene, std::uint32_t id, const Shader& material, const optional<MediumShare>& medium,
                bool has_surface) { scene.set_material(id, with_medium(material, medium, has_surface)); },
             py::arg("id"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true)
-        .def("set_light", &Scene::set_light, py::arg("id"), py::arg("light"))
+        .def(
+            "set_light",
+            [](Scene& scene, std::uint32_t id, const Light& light, const RayNames& hidden_from,
+               std::uint32_t max_bounces) { scene.set_light(id, light, rules_of(hidden_from, max_bounces)); },
+            py::arg("id"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u)
         .def(
             "set_instance_transform",
             [](Scene& scene, std::uint32_t id, const FloatArray& object_to_world) {
@@ -235,10 +273,10 @@ void register_scene(py::module_& module) {
             py::arg("id"), py::arg("object_to_world"))
         .def(
             "set_instance_visibility",
-            [](Scene& scene, std::uint32_t id, bool camera_visible) {
-                scene.set_instance_visibility(id, visibility_of(camera_visible));
+            [](Scene& scene, std::uint32_t id, const RayNames& hidden_from) {
+                scene.set_instance_visibility(id, visibility_of(hidden_from));
             },
-            py::arg("id"), py::arg("camera_visible"))
+            py::arg("id"), py::arg("hidden_from"))
         .def("set_instance_materials", &Scene::set_instance_materials, py::arg("id"), py::arg("materials"),
              "materials: as in add_instances.")
         .def("remove_instance", &Scene::remove_instance, py::arg("id"))

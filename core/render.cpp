@@ -390,7 +390,7 @@ void Session::see_center(Pixel& pixel, int x, int y) const {
                        static_cast<float>(camera.window.y0 + y) + 0.5f);
     const Ray ray = camera.ray(center);
     const auto hit = scene_->intersect(ray, visible_to_camera);
-    if (!hit) return;
+    if (!hit || scene_->is_holdout(*hit)) return;
     const Vec3f position = scene_->surface_point(ray, *hit).position;
     pixel.center = {camera.depth_m(position), position};
 }

@@ -23,6 +23,7 @@ from .light import export_light
 from .material import MaterialTable, Slots
 from .mesh import edits_applied, mesh_arrays
 from .smoke import has_smoke, smoke_domain, smoke_grids
+from .visibility import Visible, visible
 from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
 
@@ -37,7 +38,7 @@ class _Group:
     name: str  # of the Blender object
     mesh: int
     materials: tuple[int, ...]
-    camera_visible: bool
+    visible: Visible
     color: tuple[float, float, float, float]
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
@@ -56,7 +57,7 @@ def _group_of(
         name=blender_object.name,
         mesh=mesh,
         materials=materials,
-        camera_visible=blender_object.visible_camera,
+        visible=Visible(),
         color=tuple(blender_object.color),
         pass_index=blender_object.pass_index,
         reads=reads,
@@ -114,6 +115,7 @@ class _Exporter:
         self._materials = MaterialTable(context, world_shines)
         # By the evaluated data's address, what is read, and the slots whose faces rays pass.
         self._meshes: dict[tuple[int, frozenset[str], frozenset[int]], list[tuple[int, bool]]] = {}
+        self._visibles: dict[tuple[int, int], Visible] = {}  # by the original object and its instancer
         self._groups: dict[tuple[Any, ...], list[_Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
@@ -126,16 +128,21 @@ class _Exporter:
             if not instance.show_self:
                 continue
             blender_object = instance.object
+            instancer = instance.parent if instance.is_instance else None
             if blender_object.type == "LIGHT":
-                export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
+                place = told.object_to_world[index].astype(np.float64)
+                export_light(self._context, blender_object, place, self._visible(blender_object, instancer))
             elif layer.use_solid and blender_object.type == "MESH":
-                for group in self._mesh_groups(blender_object, instance, told, index):
+                seen = self._visible(blender_object, instancer)
+                for of_any in self._mesh_groups(blender_object, instance, told, index):
+                    group = replace(of_any, visible=seen)
                     self._instances[group].append(index)
                     if "particle:" in group.reads:
                         self._particles[group].append(particle_index(instance))
             elif layer.use_volumes and blender_object.type == "VOLUME":
-                for group in self._volume_groups(blender_object, told, index):
-                    self._instances[group].append(index)
+                seen = self._visible(blender_object, instancer)
+                for of_any in self._volume_groups(blender_object, told, index):
+                    self._instances[replace(of_any, visible=seen)].append(index)
             elif layer.use_solid and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
@@ -145,6 +152,17 @@ class _Exporter:
                     f"object '{group.name}': its volume depends on where it is, its instances are filled as the first"
                 )
             self._add_instances(group, indices, told)
+
+    def _visible(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> Visible:
+        key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
+        if key not in self._visibles:
+            self._visibles[key] = found = visible(blender_object, instancer, self._context.depsgraph.view_layer)
+            is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
+            if is_analytic and blender_object.type == "MESH" and {"DIFFUSE", "GLOSSY"} & set(found.hidden_from):
+                self._warn(
+                    blender_object, "in the analytic integrator what comes from it lights all. Fix: use Monte Carlo"
+                )
+        return self._visibles[key]
 
     def _mesh_groups(
         self, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
@@ -261,7 +279,8 @@ class _Exporter:
             group.mesh,
             np.ascontiguousarray(object_to_world),
             group.materials,
-            camera_visible=group.camera_visible,
+            hidden_from=list(group.visible.hidden_from),
+            holdout=group.visible.is_holdout,
             color=group.color,
             pass_index=group.pass_index,
             random=told.random_of(group.name, indices),

@@ -427,7 +427,7 @@ class SunLight:
 
 class AreaLight:
     """
-    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance.
+    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less than pi.
     """
     def __init__(
         self,
@@ -438,6 +438,7 @@ class AreaLight:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
         ellipse: bool = False,
+        spread_rad: typing.SupportsFloat | typing.SupportsIndex = 3.1415927410125732,
     ) -> None: ...
 
 class Scene:
@@ -451,7 +452,8 @@ class Scene:
         mesh: typing.SupportsInt | typing.SupportsIndex,
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         materials: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        camera_visible: bool = True,
+        hidden_from: collections.abc.Sequence[str] = [],
+        holdout: bool = False,
         color: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
         ] = [1.0, 1.0, 1.0, 1.0],
@@ -465,9 +467,18 @@ class Scene:
         ] = {},
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
         """
-    def add_light(self, name: str, light: SphereLight | SpotLight | SunLight | AreaLight) -> int: ...
+    def add_light(
+        self,
+        name: str,
+        light: SphereLight | SpotLight | SunLight | AreaLight,
+        hidden_from: collections.abc.Sequence[str] = [],
+        max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> int:
+        """
+        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.
+        """
     def add_material(self, name: str, material: Shader, medium: Medium | None = None, has_surface: bool = True) -> int:
         """
         A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
@@ -618,9 +629,15 @@ class Scene:
         id: typing.SupportsInt | typing.SupportsIndex,
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     ) -> None: ...
-    def set_instance_visibility(self, id: typing.SupportsInt | typing.SupportsIndex, camera_visible: bool) -> None: ...
+    def set_instance_visibility(
+        self, id: typing.SupportsInt | typing.SupportsIndex, hidden_from: collections.abc.Sequence[str]
+    ) -> None: ...
     def set_light(
-        self, id: typing.SupportsInt | typing.SupportsIndex, light: SphereLight | SpotLight | SunLight | AreaLight
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        light: SphereLight | SpotLight | SunLight | AreaLight,
+        hidden_from: collections.abc.Sequence[str] = [],
+        max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
     ) -> None: ...
     def set_material(
         self,

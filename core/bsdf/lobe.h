@@ -26,7 +26,8 @@ concept HasTable = requires {
 
 /// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
 /// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light; and its Parameters turn_over(mask), which makes them those of the surface's back.
+/// what is no diffuse light; and eval_diffuse(wo, wi), the part of eval() that is; and its Parameters turn_over(mask),
+/// which makes them those of the surface's back.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {

@@ -72,9 +72,22 @@ const Reflection& reflection_of(const LightShading& shading) {
     return std::visit([](const auto& s) -> const Reflection& { return s.reflection(); }, shading);
 }
 
-Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const ShadowPoints& points,
-                        std::span<const float> totals) {
-    return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points, totals); }, shading);
+/// By rays, or as if nothing were in the light's way.
+Reflection seen_of(const LightShading& shading, const Scene& scene, const ShadowPoints& points,
+                   std::span<const float> totals, bool by_rays) {
+    if (by_rays) return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points, totals); }, shading);
+    if (const auto* area = std::get_if<AreaLightShading>(&shading)) return area->spread(scene, points, totals);
+    return reflection_of(shading);
+}
+
+/// Leaves of lanes' reflections those that the light is there for.
+void apply_rules(const LightRules& rules, const SurfaceBatch& batch, Reflection& reflection) {
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const bool is_glass = batch.lanes[i]->is_glass;
+        if (!(rules.lights & visible_to_diffuse)) reflection.diffuse[i] = Rgb(0.0f);
+        if (!(rules.lights & (visible_to_glossy | (is_glass ? visible_to_transmission : 0u))))
+            reflection.glossy[i] = Rgb(0.0f);
+    }
 }
 
 constexpr std::uint32_t bump_points_of_light = 16;
@@ -82,7 +95,7 @@ constexpr std::uint32_t bump_points_of_light = 16;
 /// What bumps leave of each lane's diffuse half.
 void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
     for (std::size_t i = 0; i < batch.count; ++i) {
-        const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        const auto& [point, surface, bent_cone, is_glass] = *batch.lanes[i];
         if (!surface.has_diffuse() || !surface.bump.is_turned()) continue;
         const auto beam = [&, &frame = point.frame](const Vec3f& wi_local) {
             const auto* spot = std::get_if<SpotLight>(&light);
@@ -98,7 +111,7 @@ void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& refl
 void apply_bent_cones(const Light& light, const SurfaceBatch& batch, Reflection& reflection,
                       std::span<Gathered> gathered) {
     for (std::size_t i = 0; i < batch.count; ++i) {
-        const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        const auto& [point, surface, bent_cone, is_glass] = *batch.lanes[i];
         const SeenShare seen = seen_share(light, bent_cone, point, surface);
         gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
                              error_of_bent_cone(reflection.glossy[i], seen.glossy);
@@ -152,15 +165,19 @@ void add_lamps(const Scene& scene, const RenderSettings& settings, const Analyti
                const ShadowPoints& points, const SurfaceBatch& batch, Unhidden& light, std::span<Gathered> gathered) {
     for (const std::size_t k : brightest_first(light, batch.count)) {
         const Light& lamp = lights.exact[k];
-        Reflection reflection = reflection_of(light.lamps[k]);
-        if (settings.occlusion == Occlusion::ray_traced) {
-            reflection = seen_by_rays(light.lamps[k], scene, points, std::span(light.totals).first(batch.count));
+        const LightRules rules = lights.rules.empty() ? LightRules{} : lights.rules[k];
+        const bool by_rays = settings.occlusion == Occlusion::ray_traced;
+        const std::span<const float> totals = std::span(light.totals).first(batch.count);
+        Reflection reflection = seen_of(light.lamps[k], scene, points, totals, by_rays && rules.casts_shadows);
+        if (rules.lights != visible_to_paths) apply_rules(rules, batch, reflection);
+        if (by_rays) {
             for (std::size_t i = 0; i < batch.count; ++i)
                 light.totals[i] -= light.size(k, i) - size_of(reflection.diffuse[i]) - size_of(reflection.glossy[i]);
         }
         apply_bumps(lamp, batch, reflection);
-        apply_media(scene, lamp, batch, reflection);
-        if (settings.occlusion == Occlusion::bent_cone) apply_bent_cones(lamp, batch, reflection, gathered);
+        if (rules.casts_shadows) apply_media(scene, lamp, batch, reflection);
+        if (settings.occlusion == Occlusion::bent_cone && rules.casts_shadows)
+            apply_bent_cones(lamp, batch, reflection, gathered);
         for (std::size_t i = 0; i < batch.count; ++i) {
             gathered[i].add(reflection.diffuse[i], Method::points_1, reflection.diffuse_error[i]);
             gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
@@ -221,8 +238,8 @@ struct Parts {
 };
 Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const HitSurface> hits) {
     Parts parts;
-    const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base) {
-        parts.shading.push_back({point, base, {}});
+    const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base, bool is_glass = false) {
+        parts.shading.push_back({point, base, {}, is_glass});
         if (settings.occlusion == Occlusion::bent_cone)
             parts.shading.back().bent_cone = scene.bent_cone(hits[of].hit, point);
         parts.surface.push_back(of);
@@ -231,7 +248,8 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<con
     for (std::size_t i = 0; i < hits.size(); ++i)
         for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
             if constexpr (L::has_closed_form)
-                add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
+                add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local),
+                    L::reflects && L::transmits);
         });
     return parts;
 }
@@ -260,8 +278,9 @@ void add_lobe_points(const Scene& scene, const RenderSettings& settings, const A
                 gathered.add(reflection.radiance, Method::lobe_directions, reflection.error);
                 gathered.shadow_variance += reflection.shadow_variance;
             };
-            for (const Light& light : lights.exact)
-                add(reflect_light(scene, settings, points, light, hit.point, alone));
+            for (std::size_t k = 0; k < lights.exact.size(); ++k)
+                add(reflect_light(scene, settings, points, lights.exact[k],
+                                  lights.rules.empty() ? LightRules{} : lights.rules[k], hit.point, alone));
             if (scene.has_world()) add(reflect_world(scene, settings, points, hit.point, alone));
         }
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
 
 namespace pivot {
@@ -169,26 +170,31 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
             .reach_m = std::numeric_limits<Batch>::infinity()};
 }
 
-/// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
+/// Calls visit(LightSampleOf<Batch>, shadow rays, BatchMask) with each round of the vertices' light samples; the mask:
+/// whose light comes through what is in its way.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                      const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
-    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples) {
+    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples, const BatchMask& is_open) {
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
-        visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
-                                    .direction = samples.wi,
-                                    .near_m = Batch(0.0f),
-                                    .far_m = select(adds, samples.reach_m, Batch(0.0f))});
+        visit(samples,
+              RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
+                           .direction = samples.wi,
+                           .near_m = Batch(0.0f),
+                           .far_m = select(adds, samples.reach_m, Batch(0.0f))},
+              is_open);
     };
+    const BatchMask none(false);
     if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers));
+        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none);
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         LightSampleOf<Batch> samples = sample_lights(scene, strategy, plan.bounce, vertices, picks[k],
                                                      plan.dimensions.light_place(place), shared_lamps);
         if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
-        visit_with_rays(samples);
+        visit_with_rays(samples,
+                        scene.has_light_rules() ? obey_rules(scene, plan.bounce, vertices, picks[k], samples) : none);
     }
 }
 
@@ -199,8 +205,14 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
                    ProgramMemory& memory) {
     Vec3b radiance(Batch(0.0f));
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
-                        const Batch visible = scene.visibility(rays), zero(0.0f);
+                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& all_rays, const BatchMask& is_open) {
+                        const Batch zero(0.0f);
+                        RayOf<Batch> rays = all_rays;
+                        if (any(is_open)) {
+                            radiance += select(is_open && rays.far_m > zero, samples.radiance, Vec3b(zero));
+                            rays.far_m = select(is_open, zero, rays.far_m);
+                        }
+                        const Batch visible = scene.visibility(rays);
                         // Where no ray is, there is nothing to add.
                         Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
                         if (!scene.has_transparency() && scene.media().is_empty()) {
@@ -224,7 +236,7 @@ std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling stra
                                           SharedLamps& shared_lamps, ProgramMemory& memory) {
     std::vector<LightSample> result;
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
+                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays, const BatchMask&) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
                         for (std::size_t i = 0; i < batch_size; ++i)

@@ -124,6 +124,8 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     lit.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
     const Vec3b above(seen.wi.x, seen.wi.y, max(seen.wi.z, Batch(1e-6f)));
     lit.sample.radiance = eval(surface, above) * light.radiance * select(faces, seen.omega_per_xy / pdf_xy, zero);
+    if (any(light.inverse_tan_spread > zero))
+        lit.sample.radiance = lit.sample.radiance * spread_falloff(light.inverse_tan_spread, cosine);
     return lit;
 }
 

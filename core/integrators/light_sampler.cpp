@@ -153,7 +153,11 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
         const auto [at, pdf] = area_->sample(u);
         const SeenPlace<float> seen = see(area_->light(), at);
         if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
-        return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, std::get<AreaLight>(light_).radiance,
+        const auto& light = std::get<AreaLight>(light_);
+        const float falloff = light.inverse_tan_spread > 0.0f
+                                  ? spread_falloff(light.inverse_tan_spread, -dot(seen.wi, area_->light().normal))
+                                  : 1.0f;
+        return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, light.radiance * falloff,
                           pdf / seen.omega_per_xy};
     }
     if (!cap_) return sample_light(light_, point_.position, u);

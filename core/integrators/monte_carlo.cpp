@@ -5,6 +5,7 @@
 #include "core/integrators/direct_light.h"
 #include "core/integrators/fog.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/straight_paths.h"
 
 namespace pivot {
@@ -40,12 +41,14 @@ Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const 
         const Light& lamp = work.scene.light(index);
         const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
-        if (!place || place->distance_m > distance_m) continue;
+        const LightRules rules = work.scene.has_light_rules() ? work.scene.rules_of(index) : LightRules{};
+        if (!place || bounce > rules.max_bounces || (rules.casts_shadows && place->distance_m > distance_m)) continue;
         Rgb light = place->radiance *
                     (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
                      expected);
-        if (!way.passages.empty()) light *= way.worth_from(place->distance_m);
-        if (fog)
+        light *= lit_share(rules, vertex.surface, vertex.point.frame.to_local(wi));
+        if (!way.passages.empty() && rules.casts_shadows) light *= way.worth_from(place->distance_m);
+        if (fog && rules.casts_shadows)
             light *=
                 fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
                                    sample, static_cast<std::uint32_t>(index));
@@ -173,7 +176,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& batch, const Scattered& scattered,
             const VertexLights& lights, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
-    RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
+    RayHitOf<Batch> hit = scene.intersect(scattered.rays, met_by(scattered.ray_kind));
     WordBatch ray_kind = scattered.ray_kind | (batch.lanes.arrival.ray_kind & WordBatch(~ray_kinds));
     const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
     BatchWays straight;

@@ -117,6 +117,13 @@ class ShadowPoints {
         return points;
     }
 
+    /// At least so many of each sample.
+    ShadowPoints at_least(std::uint32_t of_sample) const {
+        ShadowPoints points = *this;
+        points.pixel_count_ = std::max(points.pixel_count_, static_cast<float>(of_sample * samples_));
+        return points;
+    }
+
     std::uint32_t count() const {
         return std::max(1u, static_cast<std::uint32_t>(std::ceil(pixel_count_ / static_cast<float>(samples_))));
     }
@@ -186,15 +193,19 @@ class ShadowRays {
         LaneShares* shares;
         float diffuse, glossy;  ///< weights
         float rim = 0.0f;
+        float left = 1.0f;  ///< of light from there if nothing is in its way
     };
     using OnSeen = std::function<void(const Ray&, const Probe&, const Rgb& left)>;
 
     void add(const Ray& ray, bool is_faced, const Probe& probe);
     /// on_seen: is told of the rays that nothing hides; may be empty.
     void trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen = {});
+    /// The same as if nothing were in their way.
+    void pass();
 
    private:
     static void tell(const Probe& probe, const Rgb& left);
+    void clear();
 
     std::vector<Ray> rays_;
     std::vector<Probe> probes_;
@@ -205,9 +216,9 @@ class ShadowRays {
 using AddPoints = std::function<void(const PartOfPoints&, std::span<const bool> wanted, ShadowRays& rays)>;
 
 /// Asks points for the share that each lane sees, until they are enough. first_part: asked in any case.
-/// shares: of at most batch_size lanes. max_passages: of ShadowPoints.
+/// shares: of at most batch_size lanes. max_passages: of ShadowPoints. traces_rays: else nothing is in their way.
 void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
-                const AddPoints& add, const ShadowRays::OnSeen& on_seen = {});
+                const AddPoints& add, const ShadowRays::OnSeen& on_seen = {}, bool traces_rays = true);
 
 /// What each lane reflects of a light towards the viewer, and how far off that may be.
 struct Reflection {

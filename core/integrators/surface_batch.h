@@ -16,7 +16,8 @@ namespace pivot {
 struct ShadingPoint {
     SurfacePoint point;
     Base surface;
-    Cap<float> bent_cone;  ///< world space, where occlusion is by bent cones
+    Cap<float> bent_cone;   ///< world space, where occlusion is by bent cones
+    bool is_glass = false;  ///< the part of a lobe that refracts, too
 };
 
 struct SurfaceBatch {

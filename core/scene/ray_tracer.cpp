@@ -29,6 +29,7 @@ template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
 constexpr std::uint32_t still_id = 0;
+constexpr std::uint32_t shadow_mask = hides_light | filters_light;
 /// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB.
 constexpr std::size_t max_copied_triangles = 1u << 19;
 /// A BVH of more triangles is compact: it takes 50 bytes a triangle less, and rays take a quarter to a third longer.
@@ -90,7 +91,7 @@ void intersect_coherent(RTCScene scene, BatchHits& hits, const int* valid) {
 }
 
 /// Fills a packet with a batch; `valid` is -1 for lanes that are rays, else 0. Returns whether any is.
-bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::uint32_t mask) {
+bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, const WordBatch& mask) {
     const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
     put(rays.origin.x, packet.org_x), put(rays.origin.y, packet.org_y), put(rays.origin.z, packet.org_z);
     put(rays.direction.x, packet.dir_x), put(rays.direction.y, packet.dir_y), put(rays.direction.z, packet.dir_z);
@@ -99,9 +100,9 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::u
     for (std::size_t i = 0; i < batch_size; ++i) {
         valid[i] = packet.tfar[i] > 0.0f ? -1 : 0;
         any = any || valid[i];
-        packet.mask[i] = mask;
         packet.flags[i] = 0;
     }
+    mask.store_unaligned(packet.mask);
     return any;
 }
 
@@ -122,13 +123,29 @@ void for_each_batch(std::span<const Ray> rays, const Visit& visit) {
     }
 }
 
+// Has Embree ask a callback of each hit; it hands the context back to it.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
+
+template <class Arguments>
+Arguments* filter_by(RTCFilterFunctionN filter, Context& context, Arguments& arguments) {
+    rtcInitRayQueryContext(&context);
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.filter = filter;
+    arguments.context = &context;
+    return &arguments;
+}
 #else
 using Context = RTCIntersectContext;
+
+Context* filter_by(RTCFilterFunctionN filter, Context& context) {
+    rtcInitIntersectContext(&context);
+    context.filter = filter;
+    return &context;
+}
 #endif
 
-/// What keep_crossing needs beside a hit. The context is Embree's, which comes back to it.
+/// What keep_crossing needs beside a hit.
 struct CrossingQuery {
     Context context;
     std::vector<Crossing>* found;
@@ -314,7 +331,7 @@ struct RayTracer::Implementation {
     Batch meet_nothing(const RayOf<Batch>& rays, std::uint32_t mask) const {
         alignas(64) int valid[batch_size];
         BatchRays r;
-        if (fill_packet(r, valid, rays, mask)) trace(occluded_batch, traced(), r, valid);
+        if (fill_packet(r, valid, rays, WordBatch(mask))) trace(occluded_batch, traced(), r, valid);
         return met_nothing(r);
     }
 
@@ -412,7 +429,7 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
-    RTCRay r = to_embree(ray, visible_to_light);
+    RTCRay r = to_embree(ray, shadow_mask);
     trace(rtcOccluded1, implementation_->traced(), r);
     return r.tfar < 0.0f;
 }
@@ -430,23 +447,26 @@ void RayTracer::crossings(const Ray& ray, std::vector<Crossing>& found) const {
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     CrossingQuery query{{}, &found};
 #if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.context);
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-    arguments.filter = keep_crossing;
-    arguments.context = &query.context;
-    rtcIntersect1(implementation_->traced(), &r, &arguments);
+    rtcIntersect1(implementation_->traced(), &r, filter_by(keep_crossing, query.context, arguments));
 #else
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = keep_crossing;
-    rtcIntersect1(implementation_->traced(), &query.context, &r);
+    rtcIntersect1(implementation_->traced(), filter_by(keep_crossing, query.context), &r);
 #endif
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
+    const std::vector<std::uint32_t> each(rays.size(), from);
+    intersect(rays, each, hits);
+}
+
+void RayTracer::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> from,
+                          std::span<std::optional<RayHit>> hits) const {
     for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
-        const std::array<RayHit, batch_size> met = unpack<RayHitOf>(intersect(batch, from));
+        std::array<std::uint32_t, batch_size> masks;
+        for (std::size_t i = 0; i < batch_size; ++i) masks[i] = from[std::min(first + i, rays.size() - 1)];
+        const std::array<RayHit, batch_size> met =
+            unpack<RayHitOf>(intersect(batch, WordBatch::load_unaligned(masks.data())));
         for (std::size_t i = 0; i < count; ++i)
             hits[first + i] = met[i].instance == no_instance ? std::nullopt : std::optional(met[i]);
     });
@@ -454,12 +474,12 @@ void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<
 
 void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
     for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
-        const auto visible = store(implementation_->meet_nothing(batch, visible_to_light));
+        const auto visible = store(implementation_->meet_nothing(batch, shadow_mask));
         for (std::size_t i = 0; i < count; ++i) occluded_rays[first + i] = visible[i] > 0.0f ? 0 : 1;
     });
 }
 
-RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) const {
+RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, const WordBatch& from) const {
     alignas(64) int valid[batch_size];
     BatchHits r;
     const bool any = fill_packet(r.ray, valid, rays, from);
@@ -467,7 +487,7 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
         r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         r.hit.instID[0][i] = no_instance;
     }
-    if (any && from == visible_to_camera)
+    if (any && xsimd::all(from == WordBatch(visible_to_camera)))
         intersect_coherent(implementation_->traced(), r, valid);
     else if (any)
         trace(intersect_batch, implementation_->traced(), r, valid);
@@ -485,21 +505,15 @@ Batch RayTracer::filtered(const RayOf<Batch>& rays, const std::array<std::uint32
                           const IsOpaque& is_opaque, std::vector<Filtered>& found) const {
     alignas(64) int valid[batch_size];
     BatchRays r;
-    if (!fill_packet(r, valid, rays, filters_light)) return Batch(0.0f);
+    if (!fill_packet(r, valid, rays, WordBatch(filters_light))) return Batch(0.0f);
     for (std::size_t i = 0; i < batch_size; ++i) r.id[i] = static_cast<unsigned>(i);
     FilterQuery query{{}, &most, &is_opaque, &found};
 #if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.context);
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-    arguments.filter = keep_filtered;
-    arguments.context = &query.context;
-    occluded_batch(valid, implementation_->traced(), &r, &arguments);
+    occluded_batch(valid, implementation_->traced(), &r, filter_by(keep_filtered, query.context, arguments));
 #else
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = keep_filtered;
-    occluded_batch(valid, implementation_->traced(), &query.context, &r);
+    occluded_batch(valid, implementation_->traced(), filter_by(keep_filtered, query.context), &r);
 #endif
     return met_nothing(r);
 }

@@ -151,9 +151,9 @@ std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transfo
     return first;
 }
 
-std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
+std::uint32_t Scene::add_light(const std::string& name, const Light& light, const LightRules& rules) {
     const auto edit = begin_edit();
-    added_lights_.push_back(NamedLight{name, light});
+    added_lights_.push_back(NamedLight{name, light, rules});
     are_lamps_stale_ = true;
     return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }
@@ -173,9 +173,10 @@ void Scene::set_material(std::uint32_t id, Shader shader) {
     }
 }
 
-void Scene::set_light(std::uint32_t id, const Light& light) {
+void Scene::set_light(std::uint32_t id, const Light& light, const LightRules& rules) {
     const auto edit = begin_edit();
     light_at(id) = light;
+    added_lights_[id].rules = rules;
     are_lamps_stale_ = true;
 }
 
@@ -194,7 +195,7 @@ void Scene::set_instance_visibility(std::uint32_t id, std::uint32_t visibility) 
     const auto edit = begin_edit();
     const std::uint32_t before = std::exchange(at_present(instances_, id, "instance").visibility, visibility);
     ray_tracer_.set_visibility(id, visibility);
-    if (((before ^ visibility) & visible_to_light) == 0) return;
+    if (((before ^ visibility) & ~std::uint32_t{visible_to_camera}) == 0) return;
     instance_lights_[id].is_stale = true;
     bent_cones_.clear();
 }
@@ -265,11 +266,12 @@ void Scene::commit() {
     world_.program.make_image_levels();
     commit_lamps();
     commit_triangle_lights();
+    commit_light_rules();
     is_committed_ = true;
 }
 
 void Scene::commit_visibility() {
-    has_transparency_ = false;
+    has_transparency_ = has_holdouts_ = false;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
         const auto any_is = [&](const auto& what) {
@@ -279,7 +281,8 @@ void Scene::commit_visibility() {
         const bool is_met = any_is([](const Shader& shader) { return shader.has_surface; });
         const bool is_transparent = any_is([](const Shader& shader) { return shader.is_transparent(); });
         std::uint32_t visibility = is_met ? instances_[i]->visibility : 0;
-        if (visibility & visible_to_light) visibility |= is_transparent ? filters_light : hides_light;
+        if (visibility & casts_shadows) visibility |= is_transparent ? filters_light : hides_light;
+        has_holdouts_ = has_holdouts_ || instances_[i]->is_holdout;
         has_transparency_ = has_transparency_ || (visibility != 0 && is_transparent);
         ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), visibility);
     }
@@ -348,9 +351,19 @@ void Scene::commit_triangle_lights() {
     triangle_tree_ = LightTree(triangle_lights_);
 }
 
+void Scene::commit_light_rules() {
+    light_rules_.clear();
+    for (const NamedLight& named : added_lights_)
+        if (named.light) light_rules_.push_back(named.rules);
+    for (const SceneTriangle& triangle : scene_triangles_)
+        light_rules_.push_back({.lights = instances_[triangle.instance]->visibility & visible_to_paths});
+    has_light_rules_ = std::ranges::any_of(light_rules_, [](const LightRules& rules) { return rules != LightRules{}; });
+    if (!has_light_rules_) light_rules_.clear();
+}
+
 bool Scene::shines(std::size_t instance) const {
     const auto& present = instances_[instance];
-    if (!present || (present->visibility & visible_to_light) == 0) return false;
+    if (!present || (present->visibility & visible_to_paths) == 0) return false;
     return std::ranges::any_of(present->materials, [&](std::uint32_t id) { return shaders_[id].is_emissive(); });
 }
 

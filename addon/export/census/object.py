@@ -7,10 +7,6 @@ from typing import Any
 from .table import LeftOut, Table
 
 
-def _is_light(blender_object: Any) -> bool:
-    return blender_object.type == "LIGHT"
-
-
 def _is_surface(blender_object: Any) -> bool:
     return blender_object.type in {"MESH", "VOLUME"}
 
@@ -36,7 +32,8 @@ OBJECT = {
     ),
     "Object": Table(
         used="""
-        data type mode material_slots matrix_world hide_render visible_camera show_instancer_for_render
+        data type mode material_slots matrix_world hide_render show_instancer_for_render visible_camera visible_diffuse
+        visible_glossy visible_transmission visible_volume_scatter visible_shadow is_holdout
         parent parent_type parent_vertices parent_bone use_parent_final_indices parent_bone_head_tail_factor@5.2
         location rotation_quaternion rotation_axis_angle rotation_euler rotation_mode scale
         delta_location delta_rotation_euler delta_rotation_quaternion delta_scale
@@ -48,14 +45,6 @@ OBJECT = {
         """,
         parts="light_linking cycles",
         left_out=(
-            LeftOut("visible_diffuse", True, "it lights diffuse surfaces too", when=_is_light),
-            LeftOut("visible_glossy", True, "it lights glossy surfaces too", when=_is_light),
-            LeftOut("visible_volume_scatter", True, "it lights fog too", when=_is_light),
-            LeftOut("visible_diffuse", True, "diffuse surfaces reflect it", when=_is_surface),
-            LeftOut("visible_glossy", True, "glossy surfaces reflect it", when=_is_surface),
-            LeftOut("visible_volume_scatter", True, "light that fog scatters meets it", when=_is_surface),
-            LeftOut("visible_shadow", True, "it casts shadows", when=_is_surface),
-            LeftOut("is_holdout", False, "it is shown as it is", when=_is_surface),
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
             LeftOut("particle_systems", _without_strands, "they are left out", what="hair strands are"),
             LeftOut(
@@ -71,7 +60,7 @@ OBJECT = {
         empty_display_size empty_image_offset image_user empty_image_depth show_empty_image_perspective
         show_empty_image_orthographic show_empty_image_only_axis_aligned use_empty_image_alpha empty_image_side
         add_rest_position_attribute pass_index color hide_viewport hide_select show_instancer_for_viewport
-        visible_transmission display_type show_bounds display_bounds_type show_name show_axis
+        display_type show_bounds display_bounds_type show_name show_axis
         show_texture_space show_wire show_all_edges use_grease_pencil_lights show_transparent show_in_front pose_library
         use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z lightgroup
         animation_visualization motion_path hide_probe_volume hide_probe_sphere hide_probe_plane selection_sets

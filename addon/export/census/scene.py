@@ -166,11 +166,7 @@ SCENE = {
         """,
     ),
     "LayerCollection": Table(
-        used="exclude children collection hide_viewport",
-        left_out=(
-            LeftOut("holdout", False, "its objects are shown as they are"),
-            LeftOut("indirect_only", False, "the camera sees its objects"),
-        ),
+        used="exclude children collection hide_viewport holdout indirect_only",
         no_meaning="name is_visible",
     ),
 }

@@ -178,12 +178,13 @@ def _materials(folder: Path) -> list[str]:
     return list(MATERIALS)
 
 
-def _ball(name: str, location: tuple[float, float, float], material: Any) -> None:
+def _ball(name: str, location: tuple[float, float, float], material: Any) -> Any:
     bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24, location=location)
     ball = bpy.context.object
     ball.name = name
     ball.data.materials.append(material)
     ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+    return ball
 
 
 def _cycles(path: Path, bounces: int) -> None:

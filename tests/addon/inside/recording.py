@@ -5,8 +5,9 @@ Calls have the core's own parameters, so a misnamed one fails as it would there.
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from types import ModuleType, SimpleNamespace
@@ -91,6 +92,7 @@ class AreaLight:
     half_v: Any
     radiance: Any
     ellipse: bool = False
+    spread_rad: float = math.pi
 
 
 @dataclass
@@ -127,6 +129,7 @@ class Recording:
     without_surface: set[str] = field(default_factory=set)  # materials
     world_medium: Medium | None = None
     lights: dict[str, Any] = field(default_factory=dict)
+    rules: dict[str, Any] = field(default_factory=dict)  # of each light
     world: Any = None
     cameras: list[SimpleNamespace] = field(default_factory=list)
     settings: RenderSettings | None = None
@@ -173,7 +176,8 @@ class Scene:
         mesh: int,
         object_to_world: Any,
         materials: Any,
-        camera_visible: bool = True,
+        hidden_from: Sequence[str] = (),
+        holdout: bool = False,
         color: Any = (1, 1, 1, 1),
         pass_index: float = 0,
         random: Any = None,
@@ -189,7 +193,8 @@ class Scene:
                 mesh=mesh,
                 object_to_world=np.array(object_to_world),
                 materials=materials,
-                camera_visible=camera_visible,
+                hidden_from=list(hidden_from),
+                holdout=holdout,
             )
         )
         return len(self.recording.instances) - 1
@@ -207,8 +212,9 @@ class Scene:
             self.recording.without_surface.add(name)
         return len(self.recording.materials) - 1
 
-    def add_light(self, name: str, light: Any) -> int:
+    def add_light(self, name: str, light: Any, hidden_from: Sequence[str] = (), max_bounces: int = 1024) -> int:
         self.recording.lights[name] = light
+        self.recording.rules[name] = (list(hidden_from), max_bounces)
         return len(self.recording.lights) - 1
 
     def set_world(self, radiance: Any) -> None:

@@ -118,9 +118,7 @@ def steps() -> Iterator[bool]:
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     lamps = [lamp(k) for k in range(SECTORS)]
     light = parts.light("fill", "POINT", (0, 0, 100))
-    for settings, name in ((light.data, "use_shadow"), (light.data.cycles, "cast_shadow")):  # by the Blender's version
-        if hasattr(settings, name):
-            setattr(settings, name, False)
+    parts.quad("catcher", (0, 0, 200)).is_shadow_catcher = True
     scene.render.engine = "PIVOT"
     scene.pivot.samples = 256
     region = area.spaces.active.region_3d
