@@ -16,10 +16,10 @@ from .export.images import ImageCache
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
-from .passes import channel_count, fill_layer, has_denoising_passes, register_passes
+from .passes import channel_count, fill_layer, has_denoising_passes, has_surface_passes, register_passes, report_passes
 from .progress import Progress
 from .report import RenderError, Reporter
-from .settings import render_settings, sample_count, setting_values
+from .settings import render_settings, sample_count, setting_values, surface_pass_values
 from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
@@ -108,6 +108,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             scene, mode = depsgraph.scene, denoise.mode_of(depsgraph.scene, context.reporter)
             values = setting_values(scene, samples, bounces)
             values["denoising_passes"] = mode != "NONE" or has_denoising_passes(depsgraph.view_layer)
+            values |= surface_pass_values(context.scene, scene, depsgraph.view_layer)
+            report_passes(scene, depsgraph.view_layer, context.reporter)
             settings = render_settings(context.core, scene, values)
             self._run(context.core.Session(context.scene, settings), samples, mode, result, context.reporter)
             done = True
@@ -131,7 +133,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         channels = [channel_count(layer) for layer in scene.view_layers if layer.use for _ in range(views)]
         width, height = frame.window_size
         denoises = scene.pivot.denoise != "NONE" or any(map(has_denoising_passes, scene.view_layers))
-        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive, denoises)
+        of_surfaces = any(map(has_surface_passes, scene.view_layers))
+        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive, denoises, of_surfaces)
         check_memory(width, height, picture_bytes(width, height, film_pixel_bytes, channels))
 
     def _check_cancel(self) -> None:

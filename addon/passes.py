@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .report import Reporter
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -20,6 +22,8 @@ class Pass:
     kind: str  # of RenderEngine.register_pass
     switch: str
     settings: str = ""  # the part of bpy.types.ViewLayer that has the switch: "pivot", or "cycles" with its addon
+    of_surfaces: bool = False  # kept only where one of them is on
+    is_light: bool = False  # that Monte Carlo alone tells apart
 
     def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
         return self.name_5_0 if version >= (5, 0) else self.name
@@ -32,12 +36,22 @@ class Pass:
         return getattr(self.switches(view_layer), self.switch, False)
 
 
+def _of_surfaces(name: str, name_5_0: str, channels: str, kind: str, switch: str) -> Pass:
+    return Pass(name, name, name_5_0, channels, kind, f"use_pass_{switch}", of_surfaces=True)
+
+
+def _light(name: str, name_5_0: str, switch: str) -> Pass:
+    return Pass(name, name, name_5_0, "RGB", "COLOR", f"use_pass_{switch}", of_surfaces=True, is_light=True)
+
+
+_DIFFUSE_COLOR = Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color")
+
 PASSES = (
     Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
     Pass("Depth", "Depth", "Depth", "Z", "VALUE", "use_pass_z"),
     Pass("Normal", "Normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
     Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
-    Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color"),
+    _DIFFUSE_COLOR,
     Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
     Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
     Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
@@ -50,6 +64,19 @@ PASSES = (
         "Denoising Albedo", "Denoising Albedo", "Denoising Albedo", "RGB", "COLOR", "denoising_store_passes", "cycles"
     ),
     Pass("Depth", "Denoising Depth", "Denoising Depth", "Z", "VALUE", "denoising_store_passes", "cycles"),
+    _light("DiffDir", "Diffuse Direct", "diffuse_direct"),
+    _light("DiffInd", "Diffuse Indirect", "diffuse_indirect"),
+    _light("GlossDir", "Glossy Direct", "glossy_direct"),
+    _light("GlossInd", "Glossy Indirect", "glossy_indirect"),
+    _light("TransDir", "Transmission Direct", "transmission_direct"),
+    _light("TransInd", "Transmission Indirect", "transmission_indirect"),
+    _of_surfaces("GlossCol", "Glossy Color", "RGB", "COLOR", "glossy_color"),
+    _of_surfaces("TransCol", "Transmission Color", "RGB", "COLOR", "transmission_color"),
+    _of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"),
+    _of_surfaces("UV", "UV", "UVA", "VECTOR", "uv"),
+    _of_surfaces("Mist", "Mist", "Z", "VALUE", "mist"),
+    _of_surfaces("IndexOB", "Object Index", "X", "VALUE", "object_index"),
+    _of_surfaces("IndexMA", "Material Index", "X", "VALUE", "material_index"),
     Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
     Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )
@@ -69,6 +96,20 @@ def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
     return any(entry.is_on(view_layer) for entry in PASSES if entry.switch == "denoising_store_passes")
 
 
+def has_surface_passes(view_layer: bpy.types.ViewLayer) -> bool:
+    """Whether this view layer gets what passes tell of surfaces and of the light that these reflect."""
+    return any(entry.is_on(view_layer) for entry in PASSES if entry.of_surfaces)
+
+
+def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reporter: Reporter) -> None:
+    """Say which passes of this view layer the integrator leaves black."""
+    if scene.pivot.integrator == "ANALYTIC" and any(entry.is_light and entry.is_on(view_layer) for entry in PASSES):
+        reporter.warn(
+            f"view layer '{view_layer.name}': in the analytic integrator passes of direct and indirect light by "
+            "reflection are black. Fix: use Monte Carlo"
+        )
+
+
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:
     """Channels of all passes that this view layer gets."""
     return sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
@@ -81,6 +122,8 @@ def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArra
     A pass that is not Pivot's (Freestyle's, say) becomes zero.
     """
     core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
+    if any(entry.of_surfaces and entry.blender_name() in layer.passes for entry in PASSES):
+        core_names[_DIFFUSE_COLOR.blender_name()] = "Diffuse Color"  # what the light passes are to be multiplied by
     pixels = [
         np.ravel(read(core_names[target.name]))
         if target.name in core_names

@@ -21,7 +21,8 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              const string& occlusion, float time_limit_s, int threads, const string& pixel_filter,
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
                              float filter_glossy, const string& indirect, int virtual_lights,
-                             const string& virtual_light_method, bool denoising_passes, int max_passages) {
+                             const string& virtual_light_method, bool denoising_passes, int max_passages,
+                             bool surface_passes, int uv_attribute, const std::array<float, 3>& mist) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(max_passages >= 0, "max_passages must not be negative");
@@ -64,7 +65,10 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .filter_shape = pixel_filter_from(pixel_filter),
         .filter_width_px = filter_width_px,
         .transparent_film = transparent_film,
-        .denoising_passes = denoising_passes};
+        .denoising_passes = denoising_passes,
+        .surface_passes = surface_passes,
+        .uv_attribute = uv_attribute,
+        .mist = {mist[0], mist[1], mist[2]}};
 }
 
 py::array_t<float> read(const Session& session, const string& pass_name) {
@@ -85,8 +89,9 @@ void register_render(py::module_& module) {
              py::arg("pixel_filter") = "BLACKMAN_HARRIS", py::arg("filter_width_px") = 1.5f,
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
-             py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false,
-             py::arg("max_passages") = 8);
+             py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
+             py::arg("surface_passes") = false, py::arg("uv_attribute") = -1,
+             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f});
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -104,8 +109,14 @@ void register_render(py::module_& module) {
                                "Samples so far, of all pixels and of those around the window whose samples reach it.")
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
-        .def_static("bytes_per_pixel", &Session::bytes_per_pixel, py::arg("adaptive"),
-                    py::arg("denoising_passes") = false, "What a session allocates for each pixel of its window.")
+        .def_static(
+            "bytes_per_pixel",
+            [](bool adaptive, bool denoising_passes, bool surface_passes) {
+                return Session::bytes_per_pixel(adaptive,
+                                                {.own_sums = denoising_passes, .surface_passes = surface_passes});
+            },
+            py::arg("adaptive"), py::arg("denoising_passes") = false, py::arg("surface_passes") = false,
+            "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def_property_readonly(
@@ -116,15 +127,19 @@ void register_render(py::module_& module) {
             },
             "How many virtual lights there are, the photons that they are made of, and the seconds that took; once "
             "samples are done.")
-        .def("read", &read, py::arg("pass_name"),
-             "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
-             "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
-             "VolumeInd: what media scatter to the camera of light that comes to them "
-             "straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic "
-             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
-             "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
-             "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
-             "lobes; Denoising Normal.");
+        .def(
+            "read", &read, py::arg("pass_name"),
+            "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
+            "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
+            "VolumeInd: what media scatter to the camera of light that comes to them "
+            "straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic "
+            "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
+            "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
+            "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
+            "lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, "
+            "DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; "
+            "these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute "
+            "uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.");
 }
 
 }  // namespace pivot::bindings

@@ -167,9 +167,10 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
 
 using MediumShare = std::shared_ptr<Medium>;
 
-Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface) {
+Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface, float pass_index = 0.0f) {
     material.medium = medium.value_or(nullptr);
     material.has_surface = has_surface;
+    material.pass_index = pass_index;
     return material;
 }
 
@@ -242,8 +243,11 @@ void register_scene(py::module_& module) {
         .def(
             "add_material",
             [](Scene& scene, const string& name, const Shader& material, const optional<MediumShare>& medium,
-               bool has_surface) { return scene.add_material(name, with_medium(material, medium, has_surface)); },
+               bool has_surface, float pass_index) {
+                return scene.add_material(name, with_medium(material, medium, has_surface, pass_index));
+            },
             py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
+            py::arg("pass_index") = 0.0f,
             "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
             "nothing but the medium is there.")
         .def(

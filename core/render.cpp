@@ -9,6 +9,7 @@
 
 #include "core/integrators/analytic.h"
 #include "core/integrators/monte_carlo.h"
+#include "core/integrators/seen_surfaces.h"
 
 namespace pivot {
 namespace {
@@ -72,7 +73,8 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
       filter_(settings.filter_shape, settings.filter_width_px),
       squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
                scene_->camera().window.height() + 2 * filter_.reach_px()},
-      film_(scene_->camera().window.width(), scene_->camera().window.height(), settings.denoising_passes),
+      film_(scene_->camera().window.width(), scene_->camera().window.height(),
+            {.own_sums = settings.denoising_passes, .surface_passes = settings.surface_passes}),
       total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
@@ -109,8 +111,9 @@ bool Session::wait(double seconds) {
     return ended;
 }
 
-std::size_t Session::bytes_per_pixel(bool adaptive, bool denoising_passes) {
-    const std::size_t film = sizeof(Pixel) + (denoising_passes ? sizeof(OwnSum) : 0);
+std::size_t Session::bytes_per_pixel(bool adaptive, const FilmParts& parts) {
+    const std::size_t film =
+        sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) + (parts.surface_passes ? sizeof(SurfacePixel) : 0);
     if (!adaptive) return film;
     constexpr std::size_t numbers_of_counts = 16;  // while they are made
     return 2 * (film + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
@@ -148,7 +151,8 @@ void Session::run() {
 void Session::render_adaptively() {
     const bool analytic = settings_.integrator == Integrator::analytic;
     const std::uint32_t whole = even_samples(settings_), half = whole / 2;
-    Film other_film(film_.width(), film_.height(), film_.keeps_own_sums());
+    Film other_film(film_.width(), film_.height(),
+                    {.own_sums = film_.keeps_own_sums(), .surface_passes = film_.keeps_surface_passes()});
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
     const auto round_of = [&](std::uint32_t number, Film& film) {
@@ -262,20 +266,28 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     const PixelGrid grid{reached.x1 - reached.x0, reached.y1 - reached.y0};
     std::vector<Pixel> pixels;
     round.film.load(reached, pixels);
+    std::vector<SurfacePixel> surfaces;
+    if (settings_.surface_passes) round.film.load_surfaces(reached, surfaces);
+    std::vector<SurfacePasses> passes;
     const PixelGrid own_grid{tile.x1 - tile.x0, tile.y1 - tile.y0};
     std::vector<OwnSum> own(round.film.keeps_own_sums() ? own_grid.size() : 0);
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
-        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y);
+        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes);
         if (row.empty()) continue;
         samples_added += row.size();
         std::size_t first = 0;
         for (int x = tile.x0; x < tile.x1; ++x) {
             const bool is_seen = x >= 0 && x < film_.width() && y >= 0 && y < film_.height();
-            if (sees_centers && is_seen) see_center(pixels[grid.index(x - reached.x0, y - reached.y0)], x, y);
+            if (sees_centers && is_seen) {
+                const std::size_t at = grid.index(x - reached.x0, y - reached.y0);
+                see_center(pixels[at], surfaces.empty() ? nullptr : &surfaces[at], x, y);
+            }
             const std::size_t square = squares_.index(x + reach, y + reach), count = count_of(round, pass, square);
             const std::span<const Sample> samples = std::span(row).subspan(first, count);
+            const std::span<const SurfacePasses> told =
+                surfaces.empty() ? std::span<const SurfacePasses>() : std::span(passes).subspan(first, count);
             const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
@@ -287,13 +299,15 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
             for (int v = y - reach; v <= y + reach; ++v) {
                 for (int u = x - reach; u <= x + reach; ++u, ++weights) {
                     if (u < reached.x0 || u >= reached.x1 || v < reached.y0 || v >= reached.y1) continue;
-                    pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, variance,
-                                                                                   weight_in(u, v));
+                    const std::size_t at = grid.index(u - reached.x0, v - reached.y0);
+                    pixels[at].samples.add(samples, *weights, variance, weight_in(u, v));
+                    if (!surfaces.empty()) surfaces[at].add(told, *weights, weight_in(u, v));
                 }
             }
         }
     }
     round.film.store(reached, pixels);
+    if (!surfaces.empty()) round.film.store_surfaces(reached, surfaces);
     for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, film_.height()) && !own.empty(); ++y) {
         const int x0 = std::max(tile.x0, 0), x1 = std::min(tile.x1, film_.width());
         round.film.add_own(x0, y,
@@ -338,7 +352,8 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
     }
 }
 
-std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y) {
+std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
+                                        std::vector<SurfacePasses>& passes) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     std::vector<Ray> rays;
@@ -363,11 +378,13 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         }
     }
     std::vector<Sample> samples(rays.size());
+    passes.assign(settings_.surface_passes ? rays.size() : 0, {});
     if (rays.empty()) return samples;
+    if (!passes.empty()) see_surfaces(*scene_, settings_, rays, passes);
     if (settings_.integrator == Integrator::analytic) {
         shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {
-        trace_paths(*scene_, settings_, rays, samplers, samples);
+        trace_paths(*scene_, settings_, rays, samplers, samples, passes);
     }
     const std::size_t first_square = squares_.index(x0 + reach, y + reach);
     std::size_t at = 0;
@@ -377,6 +394,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
             if (!is_finite(samples[at])) {
                 report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
                 samples[at] = {.alpha = 0.0f};
+                if (!passes.empty()) passes[at] = {};
             }
             if (!round.pilot.empty()) round.pilot[square].add(mean_component(samples[at].radiance));
         }
@@ -384,7 +402,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     return samples;
 }
 
-void Session::see_center(Pixel& pixel, int x, int y) const {
+void Session::see_center(Pixel& pixel, SurfacePixel* surfaces, int x, int y) const {
     const Camera& camera = scene_->camera();
     const Vec2f center(static_cast<float>(camera.window.x0 + x) + 0.5f,
                        static_cast<float>(camera.window.y0 + y) + 0.5f);
@@ -393,6 +411,9 @@ void Session::see_center(Pixel& pixel, int x, int y) const {
     if (!hit || scene_->is_holdout(*hit)) return;
     const Vec3f position = scene_->surface_point(ray, *hit).position;
     pixel.center = {camera.depth_m(position), position};
+    if (!surfaces) return;
+    surfaces->object_index = scene_->facts_of(*hit).pass_index;
+    surfaces->material_index = scene_->material_index_of(*hit);
 }
 
 void Session::report_bad_sample(int x, int y, const Ray& ray) {

@@ -35,7 +35,7 @@ class Session {
     void stop() { stop_ = true; }
 
     /// What a session allocates for each pixel of its window.
-    static std::size_t bytes_per_pixel(bool adaptive, bool denoising_passes);
+    static std::size_t bytes_per_pixel(bool adaptive, const FilmParts& parts);
 
     double progress() const;
     std::uint32_t samples_done() const { return samples_done_; }
@@ -67,7 +67,9 @@ class Session {
     bool render_round(const Round& round, std::uint32_t samples);
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
-    std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y);
+    /// passes: of these, where they are asked for.
+    std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
+                                   std::vector<SurfacePasses>& passes);
     /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
     /// rising.
     void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
@@ -75,7 +77,8 @@ class Session {
                         std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
     static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
-    void see_center(Pixel& pixel, int x, int y) const;
+    /// surfaces: null where nobody asks.
+    void see_center(Pixel& pixel, SurfacePixel* surfaces, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;
 

@@ -111,7 +111,11 @@ class MaterialTable:
             name = material.name if material else "none"
             with naming(_where(material, user), "give its colours and numbers finite values"):
                 self._materials[key] = self._context.scene.add_material(
-                    f"{name} in {user.name}" if varies else name, look.shader, medium=medium, has_surface=look.is_there
+                    f"{name} in {user.name}" if varies else name,
+                    look.shader,
+                    medium=medium,
+                    has_surface=look.is_there,
+                    pass_index=material.pass_index if material else 0,
                 )
         return self._materials[key]
 

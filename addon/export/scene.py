@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..report import RenderError, Reporter, naming
-from .attributes import is_of_mesh, mesh_attributes, object_attributes
+from .attributes import UV_OF_PASS, is_of_mesh, mesh_attributes, object_attributes
 from .baked import Interior
 from .census import report_left_out
 from .context import Context
@@ -255,6 +255,8 @@ class _Exporter:
         The core lets rays pass all of an instance's faces or none. mesh: that, with what is edited in Edit Mode.
         """
         names = frozenset(filter(is_of_mesh, slots.attributes))
+        if self._context.depsgraph.view_layer.use_pass_uv:
+            names |= {UV_OF_PASS}
         key = (blender_object.data.as_pointer(), names, slots.without_surface)
         if key not in self._meshes:
             fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"

@@ -479,7 +479,14 @@ class Scene:
         """
         hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.
         """
-    def add_material(self, name: str, material: Shader, medium: Medium | None = None, has_surface: bool = True) -> int:
+    def add_material(
+        self,
+        name: str,
+        material: Shader,
+        medium: Medium | None = None,
+        has_surface: bool = True,
+        pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> int:
         """
         A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
         """
@@ -689,6 +696,11 @@ class RenderSettings:
         virtual_light_method: str = "AUTO",
         denoising_passes: bool = False,
         max_passages: typing.SupportsInt | typing.SupportsIndex = 8,
+        surface_passes: bool = False,
+        uv_attribute: typing.SupportsInt | typing.SupportsIndex = -1,
+        mist: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [5.0, 25.0, 2.0],
     ) -> None: ...
 
 class Session:
@@ -696,14 +708,14 @@ class Session:
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool = False) -> int:
+    def bytes_per_pixel(adaptive: bool, denoising_passes: bool = False, surface_passes: bool = False) -> int:
         """
         What a session allocates for each pixel of its window.
         """
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
         """
     def start(self) -> None:
         """

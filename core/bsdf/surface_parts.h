@@ -35,4 +35,42 @@ SurfacePartsOf<T> eval_parts(const SurfaceOf<T>& surface, const Vec3<T>& wi_loca
     return parts;
 }
 
+/// What of light from one direction is by diffuse and by glossy reflection; the rest comes through the surface.
+template <class T>
+struct LightSharesOf {
+    Vec3<T> diffuse{T(0)}, glossy{T(0)};
+};
+
+template <class T>
+LightSharesOf<T> light_shares(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
+    const SurfacePartsOf<T> parts = eval_parts(surface, wi_local);
+    const Vec3<T> black(T(0)), all = max(parts.sum(), Vec3<T>(tiny<T>));
+    return {parts.diffuse / all, (parts.glossy + select(wi_local.z > T(0), parts.glass, black)) / all};
+}
+
+/// What each kind of reflection sends to the viewer where all light around is 1.
+template <class T>
+struct ColorPartsOf {
+    Vec3<T> diffuse{T(0)}, glossy{T(0)}, transmission{T(0)};
+};
+
+template <class T>
+ColorPartsOf<T> color_parts(const SurfaceOf<T>& surface) {
+    ColorPartsOf<T> parts;
+    parts.diffuse = diffuse_color(surface);
+    if (const Mask<T> has_glossy = surface.has_glossy(); any(has_glossy))
+        parts.glossy = select(has_glossy, glossy_albedo<T>(surface), Vec3<T>(T(0)));
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        const Vec3<T> beside = select(is_kind, lobe.albedo(surface.wo_local) - lobe.diffuse(), Vec3<T>(T(0)));
+        if constexpr (requires { lobe.refracted; }) {
+            const Vec3<T> refracted = select(is_kind, lobe.refracted, Vec3<T>(T(0)));
+            parts.transmission += refracted;
+            parts.glossy += beside - refracted;
+        } else {
+            (L::reflects ? parts.glossy : parts.transmission) += beside;
+        }
+    });
+    return parts;
+}
+
 }  // namespace pivot

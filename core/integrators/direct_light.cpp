@@ -202,23 +202,27 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                    const VertexLights& lights, SharedLamps& shared_lamps, const ShadowPath& shadow_path,
-                   ProgramMemory& memory) {
-    Vec3b radiance(Batch(0.0f));
+                   ProgramMemory& memory, LightSharesOf<Batch>* shares) {
+    const Batch zero(0.0f);
+    const Vec3b black(zero);
+    Vec3b radiance(black);
+    const auto add = [&](const Vec3b& light, const Vec3b& wi) {
+        radiance += light;
+        if (!shares) return;
+        const auto of_sample = light_shares(vertices.surface, vertices.point.frame.to_local(wi));
+        shares->diffuse += light * of_sample.diffuse;
+        shares->glossy += light * of_sample.glossy;
+    };
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
                     [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& all_rays, const BatchMask& is_open) {
-                        const Batch zero(0.0f);
                         RayOf<Batch> rays = all_rays;
                         if (any(is_open)) {
-                            radiance += select(is_open && rays.far_m > zero, samples.radiance, Vec3b(zero));
+                            add(select(is_open && rays.far_m > zero, samples.radiance, black), samples.wi);
                             rays.far_m = select(is_open, zero, rays.far_m);
                         }
                         const Batch visible = scene.visibility(rays);
                         // Where no ray is, there is nothing to add.
-                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
-                        if (!scene.has_transparency() && scene.media().is_empty()) {
-                            radiance += light;
-                            return;
-                        }
+                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, black);
                         RayOf<Batch> seen = rays;
                         seen.far_m = select(visible > zero, rays.far_m, zero);
                         if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);
@@ -226,8 +230,16 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
                             light = light * transmittance(scene.media(), seen,
                                                           stream_seed(vertices.sampler, plan.dimensions.base));
                         }
-                        radiance += light;
+                        add(light, samples.wi);
                     });
+    if (!shares) return radiance;
+    const auto share_of = [&](const Vec3b& part) {
+        const auto of = [&](const Batch& x, const Batch& all) {
+            return select(all != zero, x / select(all != zero, all, Batch(1.0f)), zero);
+        };
+        return Vec3b(of(part.x, radiance.x), of(part.y, radiance.y), of(part.z, radiance.z));
+    };
+    *shares = {share_of(shares->diffuse), share_of(shares->glossy)};
     return radiance;
 }
 

@@ -24,7 +24,10 @@ Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path, std::uint
     if (const Rgb emitted = ray_.emitted(); max_component(abs(emitted)) > 0.0f) {
         const Rgb light = bounded(work_.settings, bounce, path.throughput * emitted);
         add_radiance(bounce, light, work_.samples[path.sample]);
-        if (bounce == 0) work_.samples[path.sample].emission += light;
+        if (bounce == 0)
+            work_.samples[path.sample].emission += light;
+        else
+            add_to_passes(work_, bounce - 1, path.sample, light);
     }
     const std::uint32_t last = work_.settings.max_bounces;
     if (!ray_.scatters() || bounce > last) return ray_.through();
@@ -247,7 +250,10 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
 void Fog::add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light) {
     const Rgb added = bounded(work_.settings, bounce, light);
     add_radiance(bounce, added, work_.samples[sample]);
-    if (bounce == 0) work_.samples[sample].volume_direct += added;
+    if (bounce == 0)
+        work_.samples[sample].volume_direct += added;
+    else
+        add_to_passes(work_, bounce, sample, added);
 }
 
 void Fog::finish() {

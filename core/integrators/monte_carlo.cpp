@@ -136,8 +136,19 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
 void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, const Vec3b& unbounded) {
     const Vec3b light = bounded(work.settings, bounce, unbounded);
     const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        const Rgb added(r[i], g[i], b[i]);
+        add_radiance(bounce, added, work.samples[batch.paths[i].sample]);
+        add_to_passes(work, bounce, batch.paths[i].sample, added);
+    }
+}
+
+/// Notes by what the paths' first vertices reflect what is added next.
+void set_pass_shares(const Work& work, const PathBatch& batch, const LightSharesOf<Batch>& shares) {
+    const auto each = unpack<LightSharesOf>(shares);
     for (std::size_t i = 0; i < batch.paths.size(); ++i)
-        add_radiance(bounce, Rgb(r[i], g[i], b[i]), work.samples[batch.paths[i].sample]);
+        if (const std::uint32_t sample = batch.paths[i].sample; sample < work.passes.size())
+            work.pass_shares[sample] = each[i];
 }
 
 /// A BSDF sample of each path: its ray, and what the path is worth along it.
@@ -275,9 +286,12 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
     const ShadowPath shadow_path{work.settings.max_passages, bounce, batch.lanes.arrival.ray_kind};
-    add_light(work, bounce, batch,
-              batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
-                                                    lights, shared, shadow_path, work.memory));
+    const bool tells_shares = bounce == 0 && !work.passes.empty();
+    LightSharesOf<Batch> shares;
+    const Vec3b direct = direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, lights, shared,
+                                      shadow_path, work.memory, tells_shares ? &shares : nullptr);
+    if (tells_shares) set_pass_shares(work, batch, shares);
+    add_light(work, bounce, batch, batch.lanes.throughput * direct);
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
     if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
@@ -285,6 +299,10 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
             is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
     if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
+    if (tells_shares)
+        set_pass_shares(
+            work, batch,
+            light_shares(batch.vertices.surface, batch.vertices.point.frame.to_local(scattered.rays.direction)));
     if (any(scattered.goes_on)) follow(work, fog, bounce, batch, scattered, lights, shared, next);
     return count;
 }
@@ -292,7 +310,7 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
 }  // namespace
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                 std::span<const Sampler> samplers, std::span<Sample> samples) {
+                 std::span<const Sampler> samplers, std::span<Sample> samples, std::span<SurfacePasses> passes) {
     // Where there are media, paths that first scatter in them have samples of their own behind the others.
     const bool has_media = !scene.media().is_empty();
     const std::size_t count = samples.size();
@@ -306,12 +324,15 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     ProgramMemory memory;
     std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? (has_media ? 2 : 1) * count : 0,
                                      std::numeric_limits<float>::infinity());
+    std::vector<PassShares> pass_shares(passes.size());
     const Work work{scene,
                     settings,
                     has_media ? std::span<const Sampler>(own_samplers) : samplers,
                     has_media ? std::span<Sample>(own_samples) : samples,
                     memory,
-                    min_pdf_omega};
+                    min_pdf_omega,
+                    passes,
+                    pass_shares};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;

@@ -47,13 +47,16 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
     const float spread = scene.camera().pixel_spread() * part_of_pixel(work.settings);
+    // Passes keep what is shown for one path of a sample.
+    const float least_part = work.passes.empty() ? least_part_of_camera : never_two;
     std::vector<Passage> passages;
     if (scene.has_transparency())
         passages = find_passages(scene, work.settings.max_passages, straight_rays(camera_rays, hits, spread), 0,
-                                 chosen_by(work.samplers, 0, least_part_of_camera, std::identity()), work.memory);
+                                 chosen_by(work.samplers, 0, least_part, std::identity()), work.memory);
     std::span<const Passage> left = passages;
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = work.samples[i];
+        if (!work.passes.empty() && !work.settings.transparent_film) work.passes[i].environment = Rgb(0.0f);
         Path path{.arrival = {.direction = camera_rays[i].direction,
                               .hit = {},
                               .material = 0,
@@ -106,11 +109,14 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
         }
         if (ends) continue;
         cross_to(camera_rays[i].far_m);
-        if (work.settings.transparent_film)
+        if (work.settings.transparent_film) {
             sample.alpha -= std::min(mean_component(path.throughput), 1.0f);
-        else
-            sample.radiance += path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction,
-                                                                camera_ray, 0, work.memory.registers);
+            continue;
+        }
+        const Rgb sky = path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0,
+                                                         work.memory.registers);
+        sample.radiance += sky;
+        if (!work.passes.empty()) work.passes[i].environment = sky;
     }
 }
 

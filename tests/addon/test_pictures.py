@@ -42,7 +42,7 @@ def read(path: Path) -> dict[str, np.ndarray]:
             for name, channel in part.channels.items():
                 group, _, component = name.rpartition(".")
                 grouped.setdefault(f"{group}.{view}" if view else group, {})[component] = np.array(channel.pixels)
-    order = "RGBAXYZ"
+    order = "RGBAXYZUV"
     return {
         group: np.stack([parts[c] for c in sorted(parts, key=order.index)], axis=-1) for group, parts in grouped.items()
     }

@@ -41,7 +41,7 @@ OBJECT = {
         instance_type instance_collection instance_faces_scale use_instance_faces_scale use_instance_vertices_rotation
         is_instancer is_from_instancer is_from_set active_shape_key active_shape_key_index show_only_shape_key
         use_shape_key_edit_mode animation_data pose field soft_body rigid_body rigid_body_constraint collision
-        use_simulation_cache vertex_groups
+        use_simulation_cache vertex_groups pass_index
         """,
         parts="light_linking cycles",
         left_out=(
@@ -53,13 +53,13 @@ OBJECT = {
             LeftOut("shadow_terminator_normal_offset", 0.0, "shadows begin where they do without"),
             LeftOut("shadow_terminator_shading_offset", 0.0, "shadows begin where they do without"),
         ),
-        # Light groups are passes, and colour, pass index and raycasts are for nodes that are reported themselves.
+        # Light groups are passes, and colour and raycasts are for nodes that are reported themselves.
         no_meaning="""
         bound_box use_camera_lock_parent active_material active_material_index dimensions lock_location lock_rotation
         lock_rotation_w lock_rotations_4d lock_scale grease_pencil_modifiers shader_effects face_maps empty_display_type
         empty_display_size empty_image_offset image_user empty_image_depth show_empty_image_perspective
         show_empty_image_orthographic show_empty_image_only_axis_aligned use_empty_image_alpha empty_image_side
-        add_rest_position_attribute pass_index color hide_viewport hide_select show_instancer_for_viewport
+        add_rest_position_attribute color hide_viewport hide_select show_instancer_for_viewport
         display_type show_bounds display_bounds_type show_name show_axis
         show_texture_space show_wire show_all_edges use_grease_pencil_lights show_transparent show_in_front pose_library
         use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z lightgroup

@@ -187,7 +187,7 @@ def _ball(name: str, location: tuple[float, float, float], material: Any) -> Any
     return ball
 
 
-def _cycles(path: Path, bounces: int) -> None:
+def _cycles(path: Path, bounces: int, file_format: str = "OPEN_EXR") -> None:
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     settings = scene.cycles
@@ -199,21 +199,21 @@ def _cycles(path: Path, bounces: int) -> None:
     settings.blur_glossy = 0
     settings.max_bounces = settings.diffuse_bounces = settings.glossy_bounces = bounces
     settings.transmission_bounces = bounces
-    _save(path)
+    _save(path, file_format)
 
 
-def _pivot(path: Path, bounces: int, light_sampling: str) -> None:
+def _pivot(path: Path, bounces: int, light_sampling: str, file_format: str = "OPEN_EXR") -> None:
     scene = bpy.context.scene
     scene.render.engine = "PIVOT"
     scene.pivot.samples = PIVOT_SAMPLES[light_sampling]
     scene.pivot.max_bounces = bounces
     scene.pivot.light_sampling = light_sampling
-    _save(path)
+    _save(path, file_format)
 
 
-def _save(path: Path) -> None:
+def _save(path: Path, file_format: str) -> None:
     render = bpy.context.scene.render
-    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.file_format = file_format
     render.image_settings.color_depth = "32"
     render.filepath = str(path)
     bpy.ops.render.render(write_still=True)

@@ -203,7 +203,12 @@ class Scene:
         return self.attributes.setdefault(name, len(self.attributes))
 
     def add_material(
-        self, name: str, material: Material | Shader, medium: Medium | None = None, has_surface: bool = True
+        self,
+        name: str,
+        material: Material | Shader,
+        medium: Medium | None = None,
+        has_surface: bool = True,
+        pass_index: float = 0,
     ) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
@@ -247,7 +252,7 @@ class Session:
     virtual_lights = (0, 0, 0.0)
 
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool) -> int:
+    def bytes_per_pixel(adaptive: bool, denoising_passes: bool, surface_passes: bool = False) -> int:
         return 88
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None:
