@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .export.mattes import Mattes
 from .report import Reporter
 
 
@@ -82,6 +83,47 @@ PASSES = (
 )
 
 
+@dataclass(frozen=True)
+class MattePasses:
+    """Cryptomatte's passes of one kind of ids: each two ranks of an id and its share of the pixel."""
+
+    kind: str  # of Session.read_mattes, and of mattes.Mattes
+    name: str  # before a number of two digits
+    switch: str
+
+    def names(self, view_layer: bpy.types.ViewLayer) -> list[str]:
+        """Of those that this view layer gets."""
+        count = (view_layer.pass_cryptomatte_depth + 1) // 2 if getattr(view_layer, self.switch) else 0
+        return [f"{self.name}{number:02d}" for number in range(count)]
+
+
+MATTES = (
+    MattePasses("OBJECT", "CryptoObject", "use_pass_cryptomatte_object"),
+    MattePasses("MATERIAL", "CryptoMaterial", "use_pass_cryptomatte_material"),
+    MattePasses("ASSET", "CryptoAsset", "use_pass_cryptomatte_asset"),
+)
+
+
+def has_mattes(view_layer: bpy.types.ViewLayer) -> bool:
+    return any(mattes.names(view_layer) for mattes in MATTES)
+
+
+def read_mattes(session: Any, pass_name: str) -> NDArray[np.float32] | None:
+    """A pass of mattes by Blender's name, None where it is another."""
+    for mattes in MATTES:
+        if pass_name.startswith(mattes.name):
+            return session.read_mattes(mattes.kind, 2 * int(pass_name[len(mattes.name) :]))
+    return None
+
+
+def stamp_mattes(result: bpy.types.RenderResult, mattes: Mattes, view_layer: bpy.types.ViewLayer) -> None:
+    """Tell the file which names the ids stand for."""
+    for entry in MATTES:
+        if entry.names(view_layer):
+            for field, value in mattes.metadata(entry.kind, view_layer.name, entry.name).items():
+                result.stamp_data_add_field(field=field, value=value)
+
+
 def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
     """Tell Blender which passes this view layer will get."""
     for entry in PASSES:
@@ -89,6 +131,9 @@ def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view
             engine.register_pass(
                 scene, view_layer, entry.blender_name(), len(entry.channels), entry.channels, entry.kind
             )
+    for mattes in MATTES:
+        for name in mattes.names(view_layer):
+            engine.register_pass(scene, view_layer, name, 4, "RGBA", "COLOR")
 
 
 def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
@@ -112,16 +157,18 @@ def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, repor
 
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:
     """Channels of all passes that this view layer gets."""
-    return sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
+    of_mattes = 4 * sum(len(mattes.names(view_layer)) for mattes in MATTES)
+    return of_mattes + sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
 
 
 def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArray[np.float32]]) -> None:
     """Write what has been rendered into every pass of a bpy.types.RenderLayer.
 
-    read: takes the core's pass name and returns (height, width, channels) float32, bottom row first.
+    read: takes the core's pass name or that of mattes; returns (height, width, channels) float32, bottom row first.
     A pass that is not Pivot's (Freestyle's, say) becomes zero.
     """
     core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
+    core_names |= {target.name: target.name for target in layer.passes if target.name.startswith("Crypto")}
     if any(entry.of_surfaces and entry.blender_name() in layer.passes for entry in PASSES):
         core_names[_DIFFUSE_COLOR.blender_name()] = "Diffuse Color"  # what the light passes are to be multiplied by
     pixels = [

@@ -22,7 +22,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
                              float filter_glossy, const string& indirect, int virtual_lights,
                              const string& virtual_light_method, bool denoising_passes, int max_passages,
-                             bool surface_passes, int uv_attribute, const std::array<float, 3>& mist) {
+                             bool surface_passes, int uv_attribute, const std::array<float, 3>& mist, bool mattes) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(max_passages >= 0, "max_passages must not be negative");
@@ -67,6 +67,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .transparent_film = transparent_film,
         .denoising_passes = denoising_passes,
         .surface_passes = surface_passes,
+        .mattes = mattes,
         .uv_attribute = uv_attribute,
         .mist = {mist[0], mist[1], mist[2]}};
 }
@@ -91,7 +92,7 @@ void register_render(py::module_& module) {
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
              py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
              py::arg("surface_passes") = false, py::arg("uv_attribute") = -1,
-             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f});
+             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f}, py::arg("mattes") = false);
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -111,12 +112,12 @@ void register_render(py::module_& module) {
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
         .def_static(
             "bytes_per_pixel",
-            [](bool adaptive, bool denoising_passes, bool surface_passes) {
-                return Session::bytes_per_pixel(adaptive,
-                                                {.own_sums = denoising_passes, .surface_passes = surface_passes});
+            [](bool adaptive, bool denoising_passes, bool surface_passes, bool mattes) {
+                return Session::bytes_per_pixel(
+                    adaptive, {.own_sums = denoising_passes, .surface_passes = surface_passes, .mattes = mattes});
             },
             py::arg("adaptive"), py::arg("denoising_passes") = false, py::arg("surface_passes") = false,
-            "What a session allocates for each pixel of its window.")
+            py::arg("mattes") = false, "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def_property_readonly(
@@ -127,6 +128,21 @@ void register_render(py::module_& module) {
             },
             "How many virtual lights there are, the photons that they are made of, and the seconds that took; once "
             "samples are done.")
+        .def(
+            "read_mattes",
+            [](const Session& session, const string& kind, std::size_t rank) {
+                const Film& film = session.film();
+                const auto values = film.read_mattes(from_name<MatteKind>("kind", kind,
+                                                                          {{"OBJECT", MatteKind::object},
+                                                                           {"MATERIAL", MatteKind::material},
+                                                                           {"ASSET", MatteKind::asset}}),
+                                                     rank);
+                return py::array_t<float>({film.height(), film.width(), 4}, values.data());
+            },
+            py::arg("kind"), py::arg("rank"),
+            "With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this "
+            "rank "
+            "on, the largest share first.")
         .def(
             "read", &read, py::arg("pass_name"),
             "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "

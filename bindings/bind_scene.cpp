@@ -121,9 +121,10 @@ std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
 
 std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh, const FloatArray& object_to_world,
                             const std::vector<std::uint32_t>& materials, const RayNames& hidden_from, bool holdout,
-                            const std::array<float, 4>& color, float pass_index, const optional<FloatArray>& random,
-                            const optional<FloatArray>& particle_index, const optional<FloatArray>& generated,
-                            const optional<FloatArray>& uv, const std::map<string, std::array<float, 4>>& attributes) {
+                            const std::array<float, 2>& matte, const std::array<float, 4>& color, float pass_index,
+                            const optional<FloatArray>& random, const optional<FloatArray>& particle_index,
+                            const optional<FloatArray>& generated, const optional<FloatArray>& uv,
+                            const std::map<string, std::array<float, 4>>& attributes) {
     const string prefix = "object '" + name + "': ";
     require_shape(object_to_world, prefix + "object_to_world", {-1, 4, 4});
     const py::ssize_t count = object_to_world.shape(0);
@@ -147,7 +148,8 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
         if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
     }
     const py::gil_scoped_release release;
-    return scene.add_instances({name, mesh, {}, materials, visibility_of(hidden_from), holdout}, transforms, facts);
+    return scene.add_instances({name, mesh, {}, materials, visibility_of(hidden_from), matte[0], matte[1], holdout},
+                               transforms, facts);
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
@@ -167,10 +169,12 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
 
 using MediumShare = std::shared_ptr<Medium>;
 
-Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface, float pass_index = 0.0f) {
+Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface, float pass_index = 0.0f,
+                   float matte = 0.0f) {
     material.medium = medium.value_or(nullptr);
     material.has_surface = has_surface;
     material.pass_index = pass_index;
+    material.matte = matte;
     return material;
 }
 
@@ -232,22 +236,24 @@ void register_scene(py::module_& module) {
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
              py::arg("materials"), py::arg("hidden_from") = RayNames{}, py::arg("holdout") = false,
-             py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f}, py::arg("pass_index") = 0.0f,
-             py::arg("random") = py::none(), py::arg("particle_index") = py::none(), py::arg("generated") = py::none(),
-             py::arg("uv") = py::none(), py::arg("attributes") = std::map<string, std::array<float, 4>>{},
+             py::arg("matte") = std::array<float, 2>{}, py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f},
+             py::arg("pass_index") = 0.0f, py::arg("random") = py::none(), py::arg("particle_index") = py::none(),
+             py::arg("generated") = py::none(), py::arg("uv") = py::none(),
+             py::arg("attributes") = std::map<string, std::array<float, 4>>{},
              "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; "
              "hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and "
-             "SHADOW; holdout: a camera sees a hole in their place. What "
+             "SHADOW; holdout: a camera sees a hole in their place; matte: ids of "
+             "the object and the asset. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
              "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
         .def(
             "add_material",
             [](Scene& scene, const string& name, const Shader& material, const optional<MediumShare>& medium,
-               bool has_surface, float pass_index) {
-                return scene.add_material(name, with_medium(material, medium, has_surface, pass_index));
+               bool has_surface, float pass_index, float matte) {
+                return scene.add_material(name, with_medium(material, medium, has_surface, pass_index, matte));
             },
             py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
-            py::arg("pass_index") = 0.0f,
+            py::arg("pass_index") = 0.0f, py::arg("matte") = 0.0f,
             "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
             "nothing but the medium is there.")
         .def(

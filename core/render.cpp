@@ -19,6 +19,7 @@ constexpr int least_tile_size = 32;
 /// overhead.
 constexpr std::uint32_t max_samples_per_pass = 8, max_samples_per_sparse_pass = 64;
 constexpr std::size_t max_bad_samples = 8;
+constexpr std::size_t mattes_of_pixel = 4;  // about
 constexpr std::uint32_t places_when_adaptive = 16;
 constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
 
@@ -74,7 +75,9 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
       squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
                scene_->camera().window.height() + 2 * filter_.reach_px()},
       film_(scene_->camera().window.width(), scene_->camera().window.height(),
-            {.own_sums = settings.denoising_passes, .surface_passes = settings.surface_passes}),
+            {.own_sums = settings.denoising_passes,
+             .surface_passes = settings.surface_passes,
+             .mattes = settings.mattes}),
       total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
@@ -112,8 +115,9 @@ bool Session::wait(double seconds) {
 }
 
 std::size_t Session::bytes_per_pixel(bool adaptive, const FilmParts& parts) {
-    const std::size_t film =
-        sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) + (parts.surface_passes ? sizeof(SurfacePixel) : 0);
+    const std::size_t film = sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) +
+                             (parts.surface_passes ? sizeof(SurfacePixel) : 0) +
+                             (parts.mattes ? sizeof(Mattes) + mattes_of_pixel * sizeof(Matte) : 0);
     if (!adaptive) return film;
     constexpr std::size_t numbers_of_counts = 16;  // while they are made
     return 2 * (film + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
@@ -152,7 +156,9 @@ void Session::render_adaptively() {
     const bool analytic = settings_.integrator == Integrator::analytic;
     const std::uint32_t whole = even_samples(settings_), half = whole / 2;
     Film other_film(film_.width(), film_.height(),
-                    {.own_sums = film_.keeps_own_sums(), .surface_passes = film_.keeps_surface_passes()});
+                    {.own_sums = film_.keeps_own_sums(),
+                     .surface_passes = film_.keeps_surface_passes(),
+                     .mattes = film_.keeps_mattes()});
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
     const auto round_of = [&](std::uint32_t number, Film& film) {
@@ -268,13 +274,16 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     round.film.load(reached, pixels);
     std::vector<SurfacePixel> surfaces;
     if (settings_.surface_passes) round.film.load_surfaces(reached, surfaces);
+    std::vector<Mattes> mattes;
+    if (settings_.mattes) round.film.load_mattes(reached, mattes);
     std::vector<SurfacePasses> passes;
+    std::vector<SeenMatte> seen_mattes;
     const PixelGrid own_grid{tile.x1 - tile.x0, tile.y1 - tile.y0};
     std::vector<OwnSum> own(round.film.keeps_own_sums() ? own_grid.size() : 0);
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
-        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes);
+        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes, seen_mattes);
         if (row.empty()) continue;
         samples_added += row.size();
         std::size_t first = 0;
@@ -288,6 +297,11 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
             const std::span<const Sample> samples = std::span(row).subspan(first, count);
             const std::span<const SurfacePasses> told =
                 surfaces.empty() ? std::span<const SurfacePasses>() : std::span(passes).subspan(first, count);
+            const auto from = [&](std::size_t ray) {
+                return std::ranges::lower_bound(seen_mattes, ray, {}, &SeenMatte::ray);
+            };
+            const std::span<const SeenMatte> shown(from(first), from(first + count));
+            const std::size_t first_ray = first;
             const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
@@ -302,12 +316,14 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
                     const std::size_t at = grid.index(u - reached.x0, v - reached.y0);
                     pixels[at].samples.add(samples, *weights, variance, weight_in(u, v));
                     if (!surfaces.empty()) surfaces[at].add(told, *weights, weight_in(u, v));
+                    if (!mattes.empty()) mattes[at].add(shown, first_ray, *weights, weight_in(u, v));
                 }
             }
         }
     }
     round.film.store(reached, pixels);
     if (!surfaces.empty()) round.film.store_surfaces(reached, surfaces);
+    if (!mattes.empty()) round.film.store_mattes(reached, mattes);
     for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, film_.height()) && !own.empty(); ++y) {
         const int x0 = std::max(tile.x0, 0), x1 = std::min(tile.x1, film_.width());
         round.film.add_own(x0, y,
@@ -353,7 +369,7 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
 }
 
 std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
-                                        std::vector<SurfacePasses>& passes) {
+                                        std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     std::vector<Ray> rays;
@@ -379,8 +395,9 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     }
     std::vector<Sample> samples(rays.size());
     passes.assign(settings_.surface_passes ? rays.size() : 0, {});
+    mattes.clear();
     if (rays.empty()) return samples;
-    if (!passes.empty()) see_surfaces(*scene_, settings_, rays, passes);
+    if (!passes.empty() || settings_.mattes) see_surfaces(*scene_, settings_, rays, passes, mattes);
     if (settings_.integrator == Integrator::analytic) {
         shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {

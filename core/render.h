@@ -67,9 +67,9 @@ class Session {
     bool render_round(const Round& round, std::uint32_t samples);
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
-    /// passes: of these, where they are asked for.
+    /// passes, mattes: of these, where they are asked for.
     std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
-                                   std::vector<SurfacePasses>& passes);
+                                   std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes);
     /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
     /// rising.
     void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,

@@ -116,6 +116,7 @@ class MaterialTable:
                     medium=medium,
                     has_surface=look.is_there,
                     pass_index=material.pass_index if material else 0,
+                    matte=self._context.mattes.id_of("MATERIAL", material.name if material else "default_surface"),
                 )
         return self._materials[key]
 

@@ -21,6 +21,7 @@ from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable, Slots
+from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
 from .smoke import has_smoke, smoke_domain, smoke_grids
 from .visibility import Visible, visible
@@ -39,6 +40,7 @@ class _Group:
     mesh: int
     materials: tuple[int, ...]
     visible: Visible
+    matte: tuple[float, float]  # ids of the object and its asset
     color: tuple[float, float, float, float]
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
@@ -51,13 +53,16 @@ def _group_of(
     mesh: int,
     materials: tuple[int, ...],
     is_placed: bool,
+    mattes: Mattes,
     reads: frozenset[str] = frozenset(),
 ) -> _Group:
+    matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return _Group(
         name=blender_object.name,
         mesh=mesh,
         materials=materials,
         visible=Visible(),
+        matte=matte,
         color=tuple(blender_object.color),
         pass_index=blender_object.pass_index,
         reads=reads,
@@ -198,6 +203,7 @@ class _Exporter:
                     part,
                     slots.ids_without_surface() if is_passed else slots.ids,
                     slots.is_placed,
+                    self._context.mattes,
                     slots.attributes,
                 )
                 for part, is_passed in self._core_meshes(blender_object, mesh, slots)
@@ -219,7 +225,7 @@ class _Exporter:
             return []
         slots = Slots((filling.id,), frozenset(), frozenset(), filling.is_placed)
         [(core_mesh, _)] = self._core_meshes(blender_object, interior.mesh, slots)
-        return [_group_of(blender_object, core_mesh, slots.ids, slots.is_placed)]
+        return [_group_of(blender_object, core_mesh, slots.ids, slots.is_placed, self._context.mattes)]
 
     def _volume_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
         """The box around a Volume object's grids; none where there is nothing to see."""
@@ -245,7 +251,7 @@ class _Exporter:
         if filling is None or filling.lattice is None:  # Cycles, too, makes a volume only where it reads a grid
             return []
         mesh = self._context.scene.add_mesh(blender_object.name, **box_arrays(filling.lattice))
-        return [_group_of(blender_object, mesh, (filling.id,), filling.is_placed)]
+        return [_group_of(blender_object, mesh, (filling.id,), filling.is_placed, self._context.mattes)]
 
     def _core_meshes(
         self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, slots: Slots
@@ -283,6 +289,7 @@ class _Exporter:
             group.materials,
             hidden_from=list(group.visible.hidden_from),
             holdout=group.visible.is_holdout,
+            matte=group.matte,
             color=group.color,
             pass_index=group.pass_index,
             random=told.random_of(group.name, indices),

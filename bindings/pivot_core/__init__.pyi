@@ -454,6 +454,9 @@ class Scene:
         materials: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         hidden_from: collections.abc.Sequence[str] = [],
         holdout: bool = False,
+        matte: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ] = [0.0, 0.0],
         color: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
         ] = [1.0, 1.0, 1.0, 1.0],
@@ -467,7 +470,7 @@ class Scene:
         ] = {},
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
         """
     def add_light(
         self,
@@ -486,6 +489,7 @@ class Scene:
         medium: Medium | None = None,
         has_surface: bool = True,
         pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        matte: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> int:
         """
         A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
@@ -701,6 +705,7 @@ class RenderSettings:
         mist: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [5.0, 25.0, 2.0],
+        mattes: bool = False,
     ) -> None: ...
 
 class Session:
@@ -708,7 +713,9 @@ class Session:
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool = False, surface_passes: bool = False) -> int:
+    def bytes_per_pixel(
+        adaptive: bool, denoising_passes: bool = False, surface_passes: bool = False, mattes: bool = False
+    ) -> int:
         """
         What a session allocates for each pixel of its window.
         """
@@ -716,6 +723,12 @@ class Session:
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
         A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
+        """
+    def read_mattes(
+        self, kind: str, rank: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this rank on, the largest share first.
         """
     def start(self) -> None:
         """

@@ -207,6 +207,7 @@ Film::Film(int width, int height, const FilmParts& parts)
     : grid_{width, height},
       pixels_(grid_.size()),
       own_sums_(parts.own_sums ? grid_.size() : 0),
+      mattes_(parts.mattes ? grid_.size() : 0),
       surfaces_(parts.surface_passes ? grid_.size() : 0) {}
 
 void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const { load_tile(grid_, pixels_, tile, pixels); }
@@ -225,6 +226,13 @@ void Film::store_surfaces(const Tile& tile, const std::vector<SurfacePixel>& pix
     store_tile(grid_, surfaces_, tile, pixels);
 }
 
+void Film::load_mattes(const Tile& tile, std::vector<Mattes>& pixels) const { load_tile(grid_, mattes_, tile, pixels); }
+
+void Film::store_mattes(const Tile& tile, const std::vector<Mattes>& pixels) {
+    const std::shared_lock lock(mutex_);
+    store_tile(grid_, mattes_, tile, pixels);
+}
+
 void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
     const std::shared_lock lock(mutex_);
     OwnSum* own = &own_sums_[grid_.index(x, y)];
@@ -234,6 +242,12 @@ void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
 void Film::merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights) {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        if (keeps_mattes()) {
+            Mattes merged;
+            merged.add(mattes_[i], own_weights[i] * pixels_[i].samples.per_weight());
+            merged.add(other.mattes_[i], other_weights[i] * other.pixels_[i].samples.per_weight());
+            mattes_[i] = std::move(merged);
+        }
         if (keeps_surface_passes()) {
             SurfacePixel merged = surfaces_[i];  // with what its centre meets
             merged.sum = {};
@@ -273,6 +287,7 @@ void Film::add(const Film& other) {
     for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].samples.add(other.pixels_[i].samples, 1.0f);
     for (std::size_t i = 0; i < own_sums_.size(); ++i) own_sums_[i].add(other.own_sums_[i], 1.0f);
     for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i].add(other.surfaces_[i], 1.0f);
+    for (std::size_t i = 0; i < mattes_.size(); ++i) mattes_[i].add(other.mattes_[i], 1.0f);
 }
 
 std::vector<float> Film::read(const Pass& pass) const {
@@ -289,6 +304,15 @@ std::vector<float> Film::read(const Pass& pass) const {
     for (std::size_t i = 0; i < pixels_.size(); ++i)
         pass.write(pixels_[i], keeps_own_sums() ? own_sums_[i] : no_own,
                    keeps_surface_passes() ? surfaces_[i] : no_surfaces, &values[i * stride]);
+    return values;
+}
+
+std::vector<float> Film::read_mattes(MatteKind kind, std::size_t rank) const {
+    if (!keeps_mattes()) throw std::invalid_argument("there are no mattes: render with mattes");
+    std::vector<float> values(4 * pixels_.size());
+    const std::unique_lock lock(mutex_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        mattes_[i].write(kind, rank, pixels_[i].samples.per_weight(), &values[4 * i]);
     return values;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/film/mattes.h"
 #include "core/math/vector.h"
 
 namespace pivot {
@@ -104,6 +105,7 @@ struct SurfacePixel {
 struct FilmParts {
     bool own_sums = false;  ///< for a denoiser
     bool surface_passes = false;
+    bool mattes = false;
 };
 
 /// A grid of pixels, row by row.
@@ -152,6 +154,10 @@ class Film {
     void load_surfaces(const Tile& tile, std::vector<SurfacePixel>& pixels) const;
     void store_surfaces(const Tile& tile, const std::vector<SurfacePixel>& pixels);
 
+    bool keeps_mattes() const { return !mattes_.empty(); }
+    void load_mattes(const Tile& tile, std::vector<Mattes>& pixels) const;
+    void store_mattes(const Tile& tile, const std::vector<Mattes>& pixels);
+
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
@@ -163,11 +169,14 @@ class Film {
     /// A pass as height x width x channels, bottom row first. Throws std::invalid_argument where what it needs is not
     /// kept.
     std::vector<float> read(const Pass& pass) const;
+    /// Two ranks of ids from this one on, as height x width x (id, weight, id, weight). Throws likewise.
+    std::vector<float> read_mattes(MatteKind kind, std::size_t rank) const;
 
    private:
     PixelGrid grid_;
     std::vector<Pixel> pixels_;
     std::vector<OwnSum> own_sums_;        ///< of each pixel, or empty
+    std::vector<Mattes> mattes_;          ///< likewise
     std::vector<SurfacePixel> surfaces_;  ///< likewise
     mutable std::shared_mutex mutex_;     ///< shared by writers, whose tiles are disjoint; owned by a reader
 };

@@ -73,7 +73,7 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
             show(*hits[i], scene.material_of(*hits[i]), camera_ray, true);
             ends = true;
         }
-        if (!ends)
+        if (!ends && !passes.empty())
             passes[i].environment =
                 worth * world_radiance(scene.world_view(), rays[i].direction, camera_ray, 0, memory.registers);
     }
@@ -83,7 +83,7 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
 }  // namespace
 
 void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                  std::span<SurfacePasses> passes) {
+                  std::span<SurfacePasses> passes, std::vector<SeenMatte>& mattes) {
     ProgramMemory memory;
     std::vector<Seen> seen = surfaces_on(scene, settings, camera_rays, memory, passes);
     std::ranges::stable_sort(seen, {}, [](const Seen& s) { return s.arrival.material; });
@@ -92,21 +92,29 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
     for (std::size_t first = 0; first < ordered.size();) {
         const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
         const std::size_t count = batch_count(scene, rest);
+        Lanes passing{};
+        if (scene.has_transparency())
+            passing = store(mean_component(transparency_of(scene, rest.first(count), 0, memory).color));
         const ArrivalBatch batch = make_arrivals(scene, rest.first(count), 0, memory);
         const auto colors = unpack<ColorPartsOf>(color_parts(make_surface(batch.material, batch.point.wo_local)));
-        const Lanes passing = store(mean_component(batch.material.transparency.color));
         for (std::size_t i = 0; i < count; ++i) {
             const Seen& s = seen[first + i];
+            const float weight = mean_component(s.worth) * (1.0f - std::min(passing[i], 1.0f));
+            if (settings.mattes && weight > 0.0f) {
+                const auto [object, material, asset] = scene.matte_ids_of(s.arrival.hit);
+                mattes.push_back({s.ray, {{object, material, asset}, weight}});
+            }
+            if (passes.empty()) continue;
             SurfacePasses& pass = passes[s.ray];
             pass.diffuse_color += s.worth * colors[i].diffuse;
             pass.glossy_color += s.worth * colors[i].glossy;
             pass.transmission_color += s.worth * colors[i].transmission;
-            pass.nearness += mean_component(s.worth) * (1.0f - std::min(passing[i], 1.0f)) *
-                             nearness_of(settings.mist, s.arrival.hit.distance_m);
+            pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
             if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
         }
         first += count;
     }
+    std::ranges::stable_sort(mattes, {}, &SeenMatte::ray);
 }
 
 }  // namespace pivot

@@ -7,9 +7,9 @@
 
 namespace pivot {
 
-/// Sets all but the light that surfaces reflect. passes: one per ray. By an integrator that tells the environment
-/// itself that is left as it is.
+/// Sets all but the light that surfaces reflect. passes: one per ray, or none; mattes: appended to if they are asked
+/// for, by ray. By an integrator that tells the environment itself that is left as it is.
 void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                  std::span<SurfacePasses> passes);
+                  std::span<SurfacePasses> passes, std::vector<SeenMatte>& mattes);
 
 }  // namespace pivot

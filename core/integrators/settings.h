@@ -58,6 +58,7 @@ struct RenderSettings {
     bool transparent_film = false;
     bool denoising_passes = false;  ///< whether what a denoiser works on is kept
     bool surface_passes = false;    ///< whether what passes tell of surfaces and their light is
+    bool mattes = false;            ///< whether what Cryptomatte's passes rank is
     int uv_attribute = -1;          ///< that the pass shows; -1: none
     Mist mist{};
 };

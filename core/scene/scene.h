@@ -123,6 +123,11 @@ class Scene {
     /// What every material means; an id is its place.
     std::span<const Shader> shaders() const { return shaders_; }
     std::uint32_t material_of(const RayHit& hit) const;
+    /// The object's, the material's and the asset's.
+    std::array<float, 3> matte_ids_of(const RayHit& hit) const {
+        const Instance& instance = *instances_[hit.instance];
+        return {instance.matte_object, shaders_[material_of(hit)].matte, instance.matte_asset};
+    }
     float material_index_of(const RayHit& hit) const { return shaders_[material_of(hit)].pass_index; }
     const Mesh& mesh_of(const RayHit& hit) const { return *meshes_[instances_[hit.instance]->mesh]; }
     const Transform& world_from_object(std::uint32_t instance) const { return instances_[instance]->world_from_object; }

@@ -44,7 +44,8 @@ def read(path: Path) -> dict[str, np.ndarray]:
                 grouped.setdefault(f"{group}.{view}" if view else group, {})[component] = np.array(channel.pixels)
     order = "RGBAXYZUV"
     return {
-        group: np.stack([parts[c] for c in sorted(parts, key=order.index)], axis=-1) for group, parts in grouped.items()
+        group: np.stack([parts[c] for c in sorted(parts, key=lambda c: order.index(c.upper()))], axis=-1)
+        for group, parts in grouped.items()
     }
 
 

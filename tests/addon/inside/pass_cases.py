@@ -14,7 +14,8 @@ from visibility_cases import _glossy
 LIGHT = tuple(
     f"{kind}_{part}" for kind in ("diffuse", "glossy", "transmission") for part in ("direct", "indirect", "color")
 )
-PASSES = (*LIGHT, "emit", "environment", "uv", "mist", "object_index", "material_index")
+MATTES = ("cryptomatte_object", "cryptomatte_material", "cryptomatte_asset")
+PASSES = (*LIGHT, *MATTES, "emit", "environment", "uv", "mist", "object_index", "material_index")
 
 
 def main(folder: Path) -> Any:
@@ -32,7 +33,8 @@ def main(folder: Path) -> Any:
     glass, node = parts.shaded("glass", "ShaderNodeBsdfGlass", Roughness=0.3, Color=(0.9, 0.95, 1, 1))
     node.distribution = "GGX"
     glass.pass_index = 2
-    _ball("glass", (1.3, 0, 1), glass)
+    _ball("glass", (1.3, 0, 1), glass).parent = bpy.data.objects["shiny"]
+    bpy.data.objects["glass"].matrix_parent_inverse = bpy.data.objects["shiny"].matrix_world.inverted()
     glow, _ = parts.shaded("glow", "ShaderNodeEmission", Color=(1, 0.4, 0.2, 1), Strength=2)
     parts.quad("panel", (0, 2.5, 1), glow).rotation_euler = (math.radians(90), 0, 0)
     parts.light("lamp", "POINT", (0, -2, 3.5), energy=150, **SPHERE)

@@ -178,6 +178,7 @@ class Scene:
         materials: Any,
         hidden_from: Sequence[str] = (),
         holdout: bool = False,
+        matte: Any = (0, 0),
         color: Any = (1, 1, 1, 1),
         pass_index: float = 0,
         random: Any = None,
@@ -209,6 +210,7 @@ class Scene:
         medium: Medium | None = None,
         has_surface: bool = True,
         pass_index: float = 0,
+        matte: float = 0,
     ) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
@@ -252,7 +254,9 @@ class Session:
     virtual_lights = (0, 0, 0.0)
 
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool, surface_passes: bool = False) -> int:
+    def bytes_per_pixel(
+        adaptive: bool, denoising_passes: bool, surface_passes: bool = False, mattes: bool = False
+    ) -> int:
         return 88
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None:
