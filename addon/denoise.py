@@ -24,6 +24,7 @@ HOW_TO_GET_IT = (
 )
 _DEVICE_CPU = 1  # OIDNDeviceType
 _FORMAT_FLOAT3 = 3  # OIDNFormat
+_QUALITY_FAST = 4  # OIDNQuality, from version 2.3 on
 
 Pixels = NDArray[np.float32]
 
@@ -34,6 +35,12 @@ class DenoiserError(Exception):
 
 def is_there() -> bool:
     return _library() is not None
+
+
+def viewport_mode_of(scene: bpy.types.Scene) -> str:
+    """scene.pivot.denoise_viewport, 'NONE' for analytic pictures and without the library."""
+    can = scene.pivot.integrator != "ANALYTIC" and is_there()
+    return str(scene.pivot.denoise_viewport) if can else "NONE"
 
 
 def mode_of(scene: bpy.types.Scene, reporter: Reporter) -> str:
@@ -47,20 +54,22 @@ def mode_of(scene: bpy.types.Scene, reporter: Reporter) -> str:
     return str(pivot.denoise)
 
 
-def denoised(mode: str, read: Callable[[str], Pixels]) -> Pixels:
+def denoised(mode: str, read: Callable[[str], Pixels], is_quick: bool = False) -> Pixels:
     """Combined, (height, width, 4): its light without noise, its alpha as it was.
 
     mode: 'ALL', or 'INDIRECT', which keeps direct light as it is: shadows and highlights stay sharp.
-    read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. Raises DenoiserError.
+    read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. is_quick: in a tenth of the
+    time, and a little worse. Raises DenoiserError.
     """
-    albedo = _filtered(albedo=read("Denoising Albedo"))
-    normal = _filtered(normal=read("Denoising Normal"))
+    albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
+    if not is_quick:
+        albedo, normal = _filtered(albedo=albedo), _filtered(normal=normal)
     combined = read("Combined")
     if mode == "ALL":
-        light = _filtered(color=read("Noisy Image")[..., :3], albedo=albedo, normal=normal)
+        light = _filtered(is_quick, color=read("Noisy Image")[..., :3], albedo=albedo, normal=normal)
     else:
         direct = combined[..., :3] - read("Indirect")
-        light = direct + _filtered(color=read("Noisy Indirect"), albedo=albedo, normal=normal)
+        light = direct + _filtered(is_quick, color=read("Noisy Indirect"), albedo=albedo, normal=normal)
     return np.concatenate([light, combined[..., 3:]], axis=-1)
 
 
@@ -83,6 +92,7 @@ def _library() -> Any | None:
             library: Any = ctypes.CDLL(candidate)
         except OSError:
             continue
+        library.set_filter_number = getattr(library, "oidnSetFilterInt", None)  # from version 2 on
         handle, text, size, flag = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_size_t, ctypes.c_bool
         # Before version 2 these had other names.
         library.set_filter_flag = getattr(library, "oidnSetFilterBool", None) or library.oidnSetFilter1b
@@ -100,14 +110,19 @@ def _library() -> Any | None:
             (library.oidnExecuteFilter, [handle], None),
             (library.oidnReleaseFilter, [handle], None),
         ]
+        if library.set_filter_number is not None:
+            signatures.append((library.set_filter_number, [handle, text, ctypes.c_int], None))
         for function, arguments, result in signatures:
             function.argtypes, function.restype = arguments, result
         return library
     return None
 
 
-def _filtered(**images: Pixels) -> Pixels:
-    """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or these."""
+def _filtered(is_quick: bool = False, **images: Pixels) -> Pixels:
+    """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or these.
+
+    is_quick: albedo and normal, which color goes by, are noisy.
+    """
     library = _library()
     if library is None:
         raise DenoiserError(f"there is no denoiser. Fix: {HOW_TO_GET_IT}")
@@ -126,7 +141,10 @@ def _filtered(**images: Pixels) -> Pixels:
             )
         if "color" in images:
             library.set_filter_flag(denoiser, b"hdr", True)
-            library.set_filter_flag(denoiser, b"cleanAux", True)  # albedo and normal have been filtered
+            library.set_filter_flag(denoiser, b"cleanAux", not is_quick)
+        if is_quick and library.set_filter_number is not None:
+            library.set_filter_number(denoiser, b"quality", _QUALITY_FAST)
+            library.oidnGetDeviceError(device, None)  # a version that does not know it does without
         library.oidnCommitFilter(denoiser)
         library.oidnExecuteFilter(denoiser)
         library.oidnReleaseFilter(denoiser)

@@ -16,10 +16,20 @@ from .export.images import ImageCache
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
-from .passes import channel_count, fill_layer, has_denoising_passes, register_passes
+from .passes import (
+    channel_count,
+    fill_layer,
+    has_denoising_passes,
+    has_mattes,
+    has_surface_passes,
+    read_mattes,
+    register_passes,
+    report_passes,
+    stamp_mattes,
+)
 from .progress import Progress
 from .report import RenderError, Reporter
-from .settings import render_settings, sample_count, setting_values
+from .settings import render_settings, sample_count, setting_values, surface_pass_values
 from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
@@ -108,8 +118,13 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             scene, mode = depsgraph.scene, denoise.mode_of(depsgraph.scene, context.reporter)
             values = setting_values(scene, samples, bounces)
             values["denoising_passes"] = mode != "NONE" or has_denoising_passes(depsgraph.view_layer)
+            if has_mattes(depsgraph.view_layer):
+                values["mattes"] = True
+            values |= surface_pass_values(context.scene, scene, depsgraph.view_layer)
+            report_passes(scene, depsgraph.view_layer, context.reporter)
             settings = render_settings(context.core, scene, values)
             self._run(context.core.Session(context.scene, settings), samples, mode, result, context.reporter)
+            stamp_mattes(self.get_result(), context.mattes, depsgraph.view_layer)
             done = True
         finally:
             self.end_result(result, cancel=not done)
@@ -118,7 +133,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called when the Rendered viewport opens and after each edit."""
         self.viewport = self.viewport or Viewport()
-        self.viewport.update(self, depsgraph)
+        self.viewport.update(self, context, depsgraph)
 
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Called whenever the 3D view is drawn, also when only the view has moved."""
@@ -131,7 +146,10 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         channels = [channel_count(layer) for layer in scene.view_layers if layer.use for _ in range(views)]
         width, height = frame.window_size
         denoises = scene.pivot.denoise != "NONE" or any(map(has_denoising_passes, scene.view_layers))
-        film_pixel_bytes = native.Session.bytes_per_pixel(scene.pivot.adaptive, denoises)
+        of_surfaces = any(map(has_surface_passes, scene.view_layers))
+        film_pixel_bytes = native.Session.bytes_per_pixel(
+            scene.pivot.adaptive, denoises, of_surfaces, any(map(has_mattes, scene.view_layers))
+        )
         check_memory(width, height, picture_bytes(width, height, film_pixel_bytes, channels))
 
     def _check_cancel(self) -> None:
@@ -148,7 +166,10 @@ class PivotRenderEngine(bpy.types.RenderEngine):
 
         def show(combined: Any = None) -> None:
             def read(name: str) -> Any:
-                return combined if combined is not None and name == "Combined" else session.read(name)
+                if combined is not None and name == "Combined":
+                    return combined
+                mattes = read_mattes(session, name)
+                return session.read(name) if mattes is None else mattes
 
             fill_layer(result.layers[0], session.width, session.height, read)
             self.update_result(result)

@@ -9,6 +9,7 @@ import bpy
 from . import denoise
 from .chart import operators as chart_operators
 from .engine import PivotRenderEngine
+from .export.optics import panorama_names, panorama_settings
 from .passes import PASSES
 
 _ENGINE = PivotRenderEngine.bl_idname
@@ -38,6 +39,7 @@ _BUILT_IN = (
     "DATA_PT_preview",
     "DATA_PT_lens",
     "DATA_PT_camera",
+    "DATA_PT_camera_dof*",
     "DATA_PT_camera_display*",
     "DATA_PT_camera_safe_areas*",
     "DATA_PT_camera_background_image",
@@ -88,6 +90,7 @@ def draw_denoising(layout: bpy.types.UILayout, pivot: Any) -> None:
     column = layout.column()
     column.enabled = denoise.is_there()
     column.prop(pivot, "denoise")
+    column.prop(pivot, "denoise_viewport", text="Viewport")
     if not column.enabled:
         column.label(text=f"To denoise, {denoise.HOW_TO_GET_IT}", icon="INFO")
 
@@ -100,6 +103,7 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
         pivot = context.scene.pivot
         layout.prop(pivot, "integrator")
         layout.prop(pivot, "samples")
+        layout.prop(pivot, "preview_samples", text="Viewport")
         layout.prop(pivot, "adaptive")
         if pivot.integrator == "MONTE_CARLO":
             budget = layout.column()
@@ -154,6 +158,31 @@ class PIVOT_RENDER_PT_performance(PivotPanel, bpy.types.Panel):
         threads.prop(render, "threads")
 
 
+def _is_rendered(context: bpy.types.Context) -> bool:
+    return context.engine == _ENGINE and context.space_data.shading.type == "RENDERED"
+
+
+class PIVOT_VIEW3D_PT_shading(bpy.types.Panel):
+    bl_label = "Render Pass"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "HEADER"
+    bl_parent_id = "VIEW3D_PT_shading"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _is_rendered(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.space_data.shading.pivot, "render_pass", text="")
+
+
+def _draw_pause(header: Any, context: bpy.types.Context) -> None:
+    """In the header of a 3D view that Pivot renders, as Cycles has it."""
+    if _is_rendered(context):
+        pivot = context.scene.pivot
+        header.layout.prop(pivot, "preview_pause", text="", icon="PLAY" if pivot.preview_pause else "PAUSE")
+
+
 class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
@@ -184,7 +213,10 @@ class PIVOT_OBJECT_PT_ray_visibility(PivotPanel, bpy.types.Panel):
     bl_parent_id = "OBJECT_PT_visibility"
 
     def draw(self, context: bpy.types.Context) -> None:
-        _columns(self).prop(context.object, "visible_camera", text="Camera")
+        column = _columns(self).column()
+        for kind in ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
+            column.prop(context.object, f"visible_{kind}", text=kind.replace("_", " ").title())
+        column.prop(context.object, "is_holdout")
 
 
 class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
@@ -194,6 +226,25 @@ class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         _columns(self).prop(context.material.pivot, "phase")
+
+
+class PIVOT_CAMERA_PT_panorama(PivotPanel, bpy.types.Panel):
+    """Blender's own Lens panel shows these in Cycles alone."""
+
+    bl_label = "Panorama"
+    bl_context = "data"
+    bl_parent_id = "DATA_PT_lens"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.camera) and context.camera.type == "PANO" and super().poll(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _columns(self)
+        settings = panorama_settings(context.camera)
+        layout.prop(settings, "panorama_type", text="Type")
+        for name in panorama_names(settings.panorama_type):
+            layout.prop(settings, name)
 
 
 class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
@@ -227,12 +278,17 @@ class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
             column.prop(light, "size", text="Size X" if light.shape in {"RECTANGLE", "ELLIPSE"} else "Size")
             if light.shape in {"RECTANGLE", "ELLIPSE"}:
                 column.prop(light, "size_y", text="Y")
+            column.prop(light, "spread")
         else:
             column.prop(light, "shadow_soft_size", text="Radius")
         if light.type == "SPOT":
             column.prop(light, "spot_size", text="Beam Angle")
             column.prop(light, "spot_blend", text="Blend", slider=True)
             column.prop(light, "show_cone")
+        if hasattr(light, "cycles"):
+            casts = light.cycles if hasattr(light.cycles, "cast_shadow") else light
+            column.prop(casts, "cast_shadow" if casts is not light else "use_shadow", text="Cast Shadow")
+            column.prop(light.cycles, "max_bounces")
 
 
 _CLASSES = (
@@ -240,10 +296,12 @@ _CLASSES = (
     PIVOT_RENDER_PT_chart,
     PIVOT_RENDER_PT_film,
     PIVOT_RENDER_PT_performance,
+    PIVOT_VIEW3D_PT_shading,
     PIVOT_VIEWLAYER_PT_passes,
     PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
     PIVOT_MATERIAL_PT_fog,
+    PIVOT_CAMERA_PT_panorama,
     PIVOT_LIGHT_PT_light,
 )
 
@@ -263,9 +321,12 @@ def register() -> None:
         bpy.utils.register_class(panel)
     for panel in _built_in_panels():
         panel.COMPAT_ENGINES.add(_ENGINE)
+    bpy.types.VIEW3D_HT_header.append(_draw_pause)
 
 
 def unregister() -> None:
+    if hasattr(bpy.types.VIEW3D_HT_header, "draw"):  # when Blender ends, its own classes may have gone before
+        bpy.types.VIEW3D_HT_header.remove(_draw_pause)
     for panel in _built_in_panels():
         panel.COMPAT_ENGINES.discard(_ENGINE)
     for panel in reversed(_CLASSES):

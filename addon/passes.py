@@ -10,6 +10,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .export.mattes import Mattes
+from .report import Reporter
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -20,6 +23,8 @@ class Pass:
     kind: str  # of RenderEngine.register_pass
     switch: str
     settings: str = ""  # the part of bpy.types.ViewLayer that has the switch: "pivot", or "cycles" with its addon
+    of_surfaces: bool = False  # kept only where one of them is on
+    is_light: bool = False  # that Monte Carlo alone tells apart
 
     def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
         return self.name_5_0 if version >= (5, 0) else self.name
@@ -32,12 +37,22 @@ class Pass:
         return getattr(self.switches(view_layer), self.switch, False)
 
 
+def _of_surfaces(name: str, name_5_0: str, channels: str, kind: str, switch: str) -> Pass:
+    return Pass(name, name, name_5_0, channels, kind, f"use_pass_{switch}", of_surfaces=True)
+
+
+def _light(name: str, name_5_0: str, switch: str) -> Pass:
+    return Pass(name, name, name_5_0, "RGB", "COLOR", f"use_pass_{switch}", of_surfaces=True, is_light=True)
+
+
+_DIFFUSE_COLOR = Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color")
+
 PASSES = (
     Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
     Pass("Depth", "Depth", "Depth", "Z", "VALUE", "use_pass_z"),
     Pass("Normal", "Normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
     Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
-    Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color"),
+    _DIFFUSE_COLOR,
     Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
     Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
     Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
@@ -50,9 +65,63 @@ PASSES = (
         "Denoising Albedo", "Denoising Albedo", "Denoising Albedo", "RGB", "COLOR", "denoising_store_passes", "cycles"
     ),
     Pass("Depth", "Denoising Depth", "Denoising Depth", "Z", "VALUE", "denoising_store_passes", "cycles"),
+    _light("DiffDir", "Diffuse Direct", "diffuse_direct"),
+    _light("DiffInd", "Diffuse Indirect", "diffuse_indirect"),
+    _light("GlossDir", "Glossy Direct", "glossy_direct"),
+    _light("GlossInd", "Glossy Indirect", "glossy_indirect"),
+    _light("TransDir", "Transmission Direct", "transmission_direct"),
+    _light("TransInd", "Transmission Indirect", "transmission_indirect"),
+    _of_surfaces("GlossCol", "Glossy Color", "RGB", "COLOR", "glossy_color"),
+    _of_surfaces("TransCol", "Transmission Color", "RGB", "COLOR", "transmission_color"),
+    _of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"),
+    _of_surfaces("UV", "UV", "UVA", "VECTOR", "uv"),
+    _of_surfaces("Mist", "Mist", "Z", "VALUE", "mist"),
+    _of_surfaces("IndexOB", "Object Index", "X", "VALUE", "object_index"),
+    _of_surfaces("IndexMA", "Material Index", "X", "VALUE", "material_index"),
     Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
     Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )
+
+
+@dataclass(frozen=True)
+class MattePasses:
+    """Cryptomatte's passes of one kind of ids: each two ranks of an id and its share of the pixel."""
+
+    kind: str  # of Session.read_mattes, and of mattes.Mattes
+    name: str  # before a number of two digits
+    switch: str
+
+    def names(self, view_layer: bpy.types.ViewLayer) -> list[str]:
+        """Of those that this view layer gets."""
+        count = (view_layer.pass_cryptomatte_depth + 1) // 2 if getattr(view_layer, self.switch) else 0
+        return [f"{self.name}{number:02d}" for number in range(count)]
+
+
+MATTES = (
+    MattePasses("OBJECT", "CryptoObject", "use_pass_cryptomatte_object"),
+    MattePasses("MATERIAL", "CryptoMaterial", "use_pass_cryptomatte_material"),
+    MattePasses("ASSET", "CryptoAsset", "use_pass_cryptomatte_asset"),
+)
+
+
+def has_mattes(view_layer: bpy.types.ViewLayer) -> bool:
+    return any(mattes.names(view_layer) for mattes in MATTES)
+
+
+def read_mattes(session: Any, pass_name: str) -> NDArray[np.float32] | None:
+    """A pass of mattes by Blender's name, None where it is another."""
+    for mattes in MATTES:
+        if pass_name.startswith(mattes.name):
+            return session.read_mattes(mattes.kind, 2 * int(pass_name[len(mattes.name) :]))
+    return None
+
+
+def stamp_mattes(result: bpy.types.RenderResult, mattes: Mattes, view_layer: bpy.types.ViewLayer) -> None:
+    """Tell the file which names the ids stand for."""
+    for entry in MATTES:
+        if entry.names(view_layer):
+            for field, value in mattes.metadata(entry.kind, view_layer.name, entry.name).items():
+                result.stamp_data_add_field(field=field, value=value)
 
 
 def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
@@ -62,6 +131,9 @@ def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view
             engine.register_pass(
                 scene, view_layer, entry.blender_name(), len(entry.channels), entry.channels, entry.kind
             )
+    for mattes in MATTES:
+        for name in mattes.names(view_layer):
+            engine.register_pass(scene, view_layer, name, 4, "RGBA", "COLOR")
 
 
 def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
@@ -69,18 +141,36 @@ def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
     return any(entry.is_on(view_layer) for entry in PASSES if entry.switch == "denoising_store_passes")
 
 
+def has_surface_passes(view_layer: bpy.types.ViewLayer) -> bool:
+    """Whether this view layer gets what passes tell of surfaces and of the light that these reflect."""
+    return any(entry.is_on(view_layer) for entry in PASSES if entry.of_surfaces)
+
+
+def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reporter: Reporter) -> None:
+    """Say which passes of this view layer the integrator leaves black."""
+    if scene.pivot.integrator == "ANALYTIC" and any(entry.is_light and entry.is_on(view_layer) for entry in PASSES):
+        reporter.warn(
+            f"view layer '{view_layer.name}': in the analytic integrator passes of direct and indirect light by "
+            "reflection are black. Fix: use Monte Carlo"
+        )
+
+
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:
     """Channels of all passes that this view layer gets."""
-    return sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
+    of_mattes = 4 * sum(len(mattes.names(view_layer)) for mattes in MATTES)
+    return of_mattes + sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
 
 
 def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArray[np.float32]]) -> None:
     """Write what has been rendered into every pass of a bpy.types.RenderLayer.
 
-    read: takes the core's pass name and returns (height, width, channels) float32, bottom row first.
+    read: takes the core's pass name or that of mattes; returns (height, width, channels) float32, bottom row first.
     A pass that is not Pivot's (Freestyle's, say) becomes zero.
     """
     core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
+    core_names |= {target.name: target.name for target in layer.passes if target.name.startswith("Crypto")}
+    if any(entry.of_surfaces and entry.blender_name() in layer.passes for entry in PASSES):
+        core_names[_DIFFUSE_COLOR.blender_name()] = "Diffuse Color"  # what the light passes are to be multiplied by
     pixels = [
         np.ravel(read(core_names[target.name]))
         if target.name in core_names

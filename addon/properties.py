@@ -1,9 +1,11 @@
-"""scene.pivot, view_layer.pivot and material.pivot: the settings an artist sets, saved with the .blend."""
+"""What an artist sets, saved with the .blend: `pivot` of scenes, view layers, materials and 3D views' shading."""
 
 from __future__ import annotations
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+
+from .viewport_passes import VIEWPORT_PASSES
 
 INTEGRATORS = (
     ("MONTE_CARLO", "Monte Carlo", "Unbiased path tracing: for final pictures and ground truth"),
@@ -69,6 +71,22 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=1,
         soft_max=4096,
         max=1 << 20,
+        update=_settings_changed,
+    )
+    preview_samples: IntProperty(
+        name="Viewport Samples",
+        description="Samples per pixel in 3D views; 0 is as many as in the final picture",
+        default=0,
+        min=0,
+        soft_max=4096,
+        max=1 << 20,
+        update=_settings_changed,
+    )
+    preview_pause: BoolProperty(
+        name="Pause",
+        description="Render no more in 3D views, and leave there what they show",
+        default=False,
+        options=set(),
         update=_settings_changed,
     )
     adaptive: BoolProperty(
@@ -170,6 +188,13 @@ class PivotSettings(bpy.types.PropertyGroup):
         default="NONE",
         update=_settings_changed,
     )
+    denoise_viewport: EnumProperty(
+        name="Denoise Viewport",
+        description="What Open Image Denoise cleans of noise in 3D views, while nothing moves",
+        items=DENOISING,
+        default="NONE",
+        update=_settings_changed,
+    )
     time_limit: FloatProperty(
         name="Time Limit",
         description="Seconds after which a frame stops with the samples it has; 0 is no limit",
@@ -238,19 +263,35 @@ class PivotMaterial(bpy.types.PropertyGroup):
     )
 
 
+class PivotShading(bpy.types.PropertyGroup):
+    """Of one 3D view."""
+
+    render_pass: EnumProperty(
+        name="Pass",
+        description="What the 3D view shows",
+        items=VIEWPORT_PASSES,
+        default="COMBINED",
+        update=_settings_changed,
+    )
+
+
 def register() -> None:
     bpy.utils.register_class(PivotSettings)
     bpy.utils.register_class(PivotPasses)
     bpy.utils.register_class(PivotMaterial)
+    bpy.utils.register_class(PivotShading)
     bpy.types.Scene.pivot = PointerProperty(type=PivotSettings)
     bpy.types.ViewLayer.pivot = PointerProperty(type=PivotPasses)
     bpy.types.Material.pivot = PointerProperty(type=PivotMaterial)
+    bpy.types.View3DShading.pivot = PointerProperty(type=PivotShading)
 
 
 def unregister() -> None:
+    del bpy.types.View3DShading.pivot
     del bpy.types.Material.pivot
     del bpy.types.ViewLayer.pivot
     del bpy.types.Scene.pivot
+    bpy.utils.unregister_class(PivotShading)
     bpy.utils.unregister_class(PivotMaterial)
     bpy.utils.unregister_class(PivotPasses)
     bpy.utils.unregister_class(PivotSettings)

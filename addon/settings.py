@@ -6,6 +6,8 @@ from typing import Any
 
 import bpy
 
+from .export.attributes import UV_OF_PASS
+from .passes import has_surface_passes
 from .report import naming
 
 
@@ -37,6 +39,21 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "transparent_film": scene.render.film_transparent,
         "max_passages": _max_transparent_bounces(scene),
         "max_path_passages": _max_path_passages(scene),
+    }
+
+
+_FALLOFFS = {"LINEAR": 1.0, "QUADRATIC": 2.0, "INVERSE_QUADRATIC": 0.5}
+
+
+def surface_pass_values(core_scene: Any, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> dict[str, Any]:
+    """Those arguments that are for passes of surfaces; none where nobody asks for these."""
+    if not has_surface_passes(view_layer):
+        return {}
+    mist = scene.world.mist_settings if scene.world else None
+    return {
+        "surface_passes": True,
+        "uv_attribute": core_scene.attribute_id(UV_OF_PASS) if view_layer.use_pass_uv else -1,
+        "mist": (mist.start, mist.depth, _FALLOFFS[mist.falloff]) if mist else (0.0, 100.0, 1.0),
     }
 
 

@@ -3,33 +3,37 @@
 from __future__ import annotations
 
 import contextlib
+import time
 import traceback
+import weakref
 from collections.abc import Iterator
 from typing import Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
-from . import core
-from .export.camera import RegionView, region_view
+from . import core, denoise
 from .export.images import ImageCache
+from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
+from .viewport_denoise import ViewportDenoiser
+from .viewport_draw import Picture, draw_picture
+from .viewport_pace import Pace
+from .viewport_passes import as_colours, core_name
+from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
-_REDRAW_S = 0.1
-_COARSE_PX = 4  # edge of a pixel of the first picture
-_COARSE_SAMPLES = 2
-_COARSE_WAIT_S = 0.05  # a draw waits this long for a coarse picture, so that it shows its own view
-_LARGEST_HALF = 65504.0
+_POLL_S = 0.005  # how soon a first picture is seen to be there
+_REDRAW_S = 0.1  # between pictures of samples that add up
+_WAIT_S = 0.004  # a draw waits this long for a first picture, so that it may show its own view
 
 
 class Viewport:
     """What one 3D view renders. An edit exports the scene again; a move of the view only restarts the samples.
 
-    A coarse picture is never stopped before it can be shown, so there are pictures while things move without pause.
-    It keeps no reference to its engine: the two are freed together, and with them the threads.
+    The first picture of a view is as coarse as its Pace says and never stopped before it can be shown, so there are
+    pictures while things move without pause. It keeps no reference to its engine: the two are freed together, and with
+    them the threads.
     """
 
     def __init__(self) -> None:
@@ -37,109 +41,220 @@ class Viewport:
         self._warnings: list[str] = []  # of the scene as exported
         self._stale = True  # the scene has changed since
         self._visible: Any = None  # of the scene as exported
+        self._local: Any = None  # likewise, what this 3D view shows of it
         self._frame: int | None = None  # of the images in the scene; None: they are of any
         self._core: Any = None
         self._scene: Any = None  # pivot_core.Scene; None before the first export and after a fault
         self._images = ImageCache()
+        self._meshes: MeshCache | None = None
+        self._layer: Any = None  # that the meshes are of
+        self._pace = Pace()
         self._session: Any = None
-        self._pixel_px = 1  # of the session
-        self._size = (0, 0)  # of what the session shows, as are the next two
-        self._view: RegionView | None = None
-        self._settings: dict[str, Any] = {}
-        self._pixels: NDArray[np.float32] | None = None  # the last picture, until it is drawn
-        self._texture: Any = None  # the last that was drawn
+        self._is_first = False  # whether the session is to give the first picture of its view
+        self._covers_px: Corners = (0.0, 0.0, 0.0, 0.0)  # by the session's pixels
+        self._view: View | None = None  # of the session
+        self._settings: dict[str, Any] = {}  # of what it shows
+        self._mode = "NONE"  # of denoising, in the session
+        self._denoiser = ViewportDenoiser()
+        self._is_clean = False  # whether the session's picture was shown without noise
+        self._is_end_shown = False  # of the session
+        self._samples_read = 0  # of the session
+        self._read_s = 0.0
+        self._pass = "COMBINED"  # that is shown
+        self._picture: Picture | None = None
+        self._is_watched = False
 
-    def update(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
+    def update(
+        self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph
+    ) -> None:
         """Export an edit, once there is a picture of the edit before: until then draws ask to be called again.
 
         Only here may Blender's data be written to, which reading some images needs.
         """
+        space = context.space_data
+        if self._meshes is not None:
+            self._meshes.forget(depsgraph.updates)
         moved_on = self._frame not in {None, depsgraph.scene.frame_current}
-        if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph) != self._visible:
+        if moved_on or any(map(_changes_picture, depsgraph.updates)) or _visible(depsgraph, space) != self._visible:
             self._stale = True
         with _faults_shown(engine):
-            if self._stale and not self._awaits_coarse_picture(self._take_picture(0.0)):
-                self._export(depsgraph)
+            if depsgraph.scene.pivot.preview_pause:
+                return
+            self._choose(space, depsgraph.scene)
+            finished = self._take_picture(0.0)
+            if self._stale and not self._awaits_first_picture(finished):
+                self._export(depsgraph, space)
+                self._advance(engine, context, depsgraph, finished=False)
         engine.tag_redraw()
 
     def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Draw the picture as it stands, and see that it gets better."""
         with _faults_shown(engine):
-            finished = self._take_picture(0.0)
-            scene = depsgraph.scene
-            size = (context.region.width, context.region.height)
-            if self._stale:
-                if not self._awaits_coarse_picture(finished):
-                    engine.tag_update()
-                finished = False
-            elif self._scene is not None and not self._awaits_coarse_picture(finished):
-                view = region_view(context.region_data, context.space_data)
-                settings = setting_values(scene, sample_count(depsgraph), scene.pivot.max_bounces)
-                if self._session is None or not self._shows(size, view, settings):
-                    self._size, self._view, self._settings = size, view, settings
-                    self._start(scene, _COARSE_PX)
-                    self._take_picture(_COARSE_WAIT_S)
-                    finished = False
-                elif finished and self._pixel_px > 1:
-                    self._start(scene, 1)
-                    finished = False
-            if self._session is None:
-                return
-            if self._pixels is not None:
-                self._texture, self._pixels = _texture(self._pixels), None
-            if self._texture is not None:
-                _draw_texture(engine, scene, self._texture, size)
-            samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
-            engine.update_stats("Pivot", " | ".join(["Finished" if finished else samples, *_in_short(self._warnings)]))
+            self._pace.drew()
+            finished = True
+            if depsgraph.scene.pivot.preview_pause:
+                self._stop()
+                state = "Paused"
+            else:
+                finished = self._follow(engine, context, depsgraph)
+                if self._session is None:
+                    return
+                samples = f"Sample {self._session.samples_done}/{self._settings['samples']}"
+                state = "Finished" if finished else samples
+            if self._picture is not None:
+                draw_picture(engine, depsgraph.scene, self._picture, view_of(context, depsgraph))
+            engine.update_stats("Pivot", " | ".join([state, *_in_short(self._warnings)]))
             if not finished:
-                _redraw_soon(engine)
+                self._watch(engine)
 
-    def _export(self, depsgraph: bpy.types.Depsgraph) -> None:
+    def _follow(
+        self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph
+    ) -> bool:
+        """Take over what there is, and begin what comes next. Returns whether all that is to be shown is there."""
+        self._choose(context.space_data, depsgraph.scene)
+        finished = self._take_picture(0.0)
+        if self._local != local_parts(context.space_data):
+            self._stale = True
+        if self._awaits_first_picture(finished):
+            return False
+        if self._stale:
+            engine.tag_update()
+            return False
+        self._is_end_shown = finished = self._advance(engine, context, depsgraph, finished)
+        return finished and self._denoiser.is_at_rest
+
+    def _choose(self, space: bpy.types.SpaceView3D, scene: bpy.types.Scene) -> None:
+        """Take over what of a session is to be shown."""
+        choice = space.shading.pivot.render_pass, denoise.viewport_mode_of(scene)
+        if choice != (self._pass, self._mode):
+            self._pass, self._mode = choice
+            self._samples_read, self._is_clean = 0, False
+            self._denoiser.forget()
+
+    def _advance(
+        self,
+        engine: bpy.types.RenderEngine,
+        context: bpy.types.Context,
+        depsgraph: bpy.types.Depsgraph,
+        finished: bool,
+    ) -> bool:
+        """Begin what is to be rendered next, where the session is of another view or only gave the first picture.
+
+        finished: whether it has ended. Returns whether all is rendered.
+        """
+        if self._scene is None:
+            return False
+        scene, view = depsgraph.scene, view_of(context, depsgraph)
+        samples = scene.pivot.preview_samples or sample_count(depsgraph)
+        settings = setting_values(scene, samples, scene.pivot.max_bounces)
+        settings["denoising_passes"] = self._mode != "NONE"
+        finest_px = engine.get_preview_pixel_size(scene)
+        if self._session is None or (view, settings) != (self._view, self._settings):
+            self._view, self._settings = view, settings
+            self._start_first(scene, finest_px)
+            self._take_picture(_WAIT_S)
+            return False
+        if finished and self._is_first:
+            self._start(scene, finest_px, settings["samples"])
+            return False
+        return finished
+
+    def _export(self, depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> None:
         """Take over the scene, and say on the console what of it is left out."""
         self._stop()
-        self._scene, self._stale, self._visible = None, False, _visible(depsgraph)
+        self._scene, self._stale, self._visible = None, False, _visible(depsgraph, space)
+        self._local = local_parts(space)
         self._core = core.load()
+        layer = depsgraph.scene.as_pointer(), depsgraph.view_layer.name
+        if self._meshes is None or self._layer != layer:
+            self._meshes, self._layer = MeshCache(self._core), layer
         reporter = Reporter(_print_warning, self._said)
         self._warnings = reporter.warnings
-        exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images)
+        is_shown = None if shows_all(space) else lambda shown: shown.visible_in_viewport_get(space)
+        exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, self._meshes, is_shown)
         self._images.sweep()
+        self._meshes.sweep()
         self._scene = exported.scene
         self._frame = exported.images.frame if exported.images.shows_frames else None
 
     def _take_picture(self, wait_s: float) -> bool:
         """Take over what the session has done within wait_s, and return whether it has ended."""
-        if self._session is None:
+        session = self._session
+        if session is None:
             return False
-        finished = self._session.wait(wait_s)
-        if self._session.samples_done > 0:
-            self._pixels = self._session.read("Combined")
+        finished = session.wait(wait_s)
+        samples, now_s = session.samples_done, time.monotonic()
+        if samples > self._samples_read and (self._samples_read == 0 or finished or now_s > self._read_s + _REDRAW_S):
+            if self._is_first:
+                self._pace.took(session.sampling_s, session.width * session.height)
+            if not self._is_clean:
+                self._show(as_colours(self._pass, session.read(core_name(self._pass))))
+            self._samples_read, self._read_s = samples, now_s
+        cleaned = self._denoiser.take()
+        has_what_it_takes = not self._is_first and self._settings["denoising_passes"]
+        if has_what_it_takes and self._mode != "NONE" and self._pass == "COMBINED":
+            if cleaned is not None:
+                self._is_clean = True
+                self._show(cleaned)
+            self._denoiser.offer(self._mode, session, samples, finished)
         return finished
 
-    def _awaits_coarse_picture(self, finished: bool) -> bool:
-        return self._session is not None and self._pixel_px > 1 and not finished and self._session.samples_done == 0
+    def _show(self, pixels: Any) -> None:
+        self._picture = Picture(pixels, self._view, self._covers_px)
 
-    def _shows(self, size: tuple[int, int], view: RegionView, settings: dict[str, Any]) -> bool:
-        """Whether the session is of this view."""
-        return (size, settings) == (self._size, self._settings) and view.same_as(self._view)
+    def _awaits_first_picture(self, finished: bool) -> bool:
+        return self._session is not None and self._is_first and not finished
 
-    def _start(self, scene: bpy.types.Scene, pixel_px: int) -> None:
+    def _start_first(self, scene: bpy.types.Scene, finest_px: float) -> None:
+        """Begin with a view, by one sample of pixels that are ready soon."""
+        left, bottom, right, top = self._view.window_px
+        self._start(scene, self._pace.pixel_px((right - left) * (top - bottom), finest_px), 1)
+        self._is_first = True
+
+    def _start(self, scene: bpy.types.Scene, pixel_px: float, samples: int) -> None:
         """Begin a session. pixel_px: the edge of its pixels."""
         self._stop()
-        view, settings = self._view, self._settings
-        width, height = (max(1, side // pixel_px) for side in self._size)
-        self._scene.set_camera(
-            view.camera_to_world, view.view_plane, width, height, (0, 0, width, height), *view.clip_m
-        )
-        if pixel_px > 1:
-            settings = settings | {"samples": min(settings["samples"], _COARSE_SAMPLES)}
-        self._session = self._core.Session(self._scene, render_settings(self._core, scene, settings))
+        self._covers_px = self._view.set_camera(self._core, self._scene, pixel_px)
+        settings = render_settings(self._core, scene, self._settings | {"samples": samples})
+        self._session = self._core.Session(self._scene, settings)
         self._session.start()
-        self._pixel_px = pixel_px
+        self._denoiser.forget()
+        self._is_first = self._is_clean = self._is_end_shown = False
+        self._samples_read = 0
 
     def _stop(self) -> None:
         if self._session is not None:
             self._session.stop()
             self._session = None
+
+    def _has_news(self) -> bool:
+        """Whether a draw would show what the last did not."""
+        ended = self._session.wait(0.0)
+        if self._is_first:
+            return ended
+        if self._session.samples_done > self._samples_read:
+            return self._samples_read == 0 or ended or time.monotonic() > self._read_s + _REDRAW_S
+        return self._denoiser.has_result or (ended and not self._is_end_shown)
+
+    def _watch(self, engine: bpy.types.RenderEngine) -> None:
+        """Have the 3D view drawn as soon as there are news."""
+        if self._is_watched:
+            return
+        self._is_watched, viewport = True, weakref.ref(self)
+
+        def look() -> float | None:
+            own = viewport()
+            with contextlib.suppress(ReferenceError):  # the engine may be freed by then
+                if engine.is_preview or own is None:
+                    return None
+                with _faults_shown(engine):
+                    if own._session is not None and not own._has_news():
+                        return _POLL_S
+                own._is_watched = False
+                engine.tag_redraw()
+            return None
+
+        bpy.app.timers.register(look, first_interval=_POLL_S)
 
 
 def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
@@ -159,15 +274,16 @@ def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
     return update.is_updated_geometry or update.is_updated_transform or update.is_updated_shading
 
 
-def _visible(depsgraph: bpy.types.Depsgraph) -> Any:
+def _visible(depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> Any:
     """What an export depends on and updates do not tell from a selection."""
-    layer, scene = depsgraph.view_layer, depsgraph.scene
+    layer, scene, all_are_shown = depsgraph.view_layer, depsgraph.scene, shows_all(space)
     objects = [
         (
             visible.original.as_pointer(),
             visible.is_holdout,
             visible.original.holdout_get(view_layer=layer),
             visible.original.indirect_only_get(view_layer=layer),
+            all_are_shown or visible.visible_in_viewport_get(space),
         )
         for visible in depsgraph.objects
     ]
@@ -200,32 +316,3 @@ def _faults_shown(engine: bpy.types.RenderEngine) -> Iterator[None]:
     except Exception as error:
         traceback.print_exc()
         engine.update_stats("Pivot", f"internal error: {type(error).__name__}: {error}")
-
-
-def _redraw_soon(engine: bpy.types.RenderEngine) -> None:
-    def redraw() -> None:
-        with contextlib.suppress(ReferenceError):  # the engine may be freed by then
-            engine.tag_redraw()
-
-    bpy.app.timers.register(redraw, first_interval=_REDRAW_S)
-
-
-def _texture(pixels: NDArray[np.float32]) -> Any:
-    """A texture of (height, width, 4) pixels, the bottom row first."""
-    import gpu  # is not there in the background
-
-    height, width = pixels.shape[:2]
-    values = np.clip(pixels, -_LARGEST_HALF, _LARGEST_HALF).ravel()
-    buffer = gpu.types.Buffer("FLOAT", values.size, values)
-    return gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer)
-
-
-def _draw_texture(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, texture: Any, size: tuple[int, int]) -> None:
-    import gpu
-    from gpu_extras.presets import draw_texture_2d
-
-    gpu.state.blend_set("ALPHA_PREMULT")
-    engine.bind_display_space_shader(scene)
-    draw_texture_2d(texture, (0, 0), *size)
-    engine.unbind_display_space_shader()
-    gpu.state.blend_set("NONE")

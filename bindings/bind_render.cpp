@@ -22,7 +22,8 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              float filter_width_px, bool transparent_film, bool adaptive, float clamp_indirect,
                              float filter_glossy, const string& indirect, int virtual_lights,
                              const string& virtual_light_method, bool denoising_passes, int max_passages,
-                             int max_path_passages) {
+                             int max_path_passages, bool surface_passes, int uv_attribute,
+                             const std::array<float, 3>& mist, bool mattes) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(max_passages >= 0, "max_passages must not be negative");
@@ -67,7 +68,11 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .filter_shape = pixel_filter_from(pixel_filter),
         .filter_width_px = filter_width_px,
         .transparent_film = transparent_film,
-        .denoising_passes = denoising_passes};
+        .denoising_passes = denoising_passes,
+        .surface_passes = surface_passes,
+        .mattes = mattes,
+        .uv_attribute = uv_attribute,
+        .mist = {mist[0], mist[1], mist[2]}};
 }
 
 py::array_t<float> read(const Session& session, const string& pass_name) {
@@ -89,7 +94,8 @@ void register_render(py::module_& module) {
              py::arg("transparent_film") = false, py::arg("adaptive") = false, py::arg("clamp_indirect") = 0.0f,
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
              py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
-             py::arg("max_path_passages") = 9);
+             py::arg("max_path_passages") = 9, py::arg("surface_passes") = false, py::arg("uv_attribute") = -1,
+             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f}, py::arg("mattes") = false);
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -100,6 +106,8 @@ void register_render(py::module_& module) {
              "Whether the render has ended within the given time; raises what failed in it.")
         .def("stop", &Session::stop, "Ends the render within milliseconds; what is done stays readable.")
         .def_property_readonly("progress", &Session::progress, "0..1")
+        .def_property_readonly("sampling_s", &Session::sampling_s,
+                               "Since the scene was ready for rays, until the render has ended.")
         .def_property_readonly("samples_done", &Session::samples_done,
                                "Samples complete over the whole window; under adaptive sampling, of those pixels that "
                                "take as many.")
@@ -107,8 +115,14 @@ void register_render(py::module_& module) {
                                "Samples so far, of all pixels and of those around the window whose samples reach it.")
         .def_property_readonly("width", [](const Session& s) { return s.film().width(); })
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
-        .def_static("bytes_per_pixel", &Session::bytes_per_pixel, py::arg("adaptive"),
-                    py::arg("denoising_passes") = false, "What a session allocates for each pixel of its window.")
+        .def_static(
+            "bytes_per_pixel",
+            [](bool adaptive, bool denoising_passes, bool surface_passes, bool mattes) {
+                return Session::bytes_per_pixel(
+                    adaptive, {.own_sums = denoising_passes, .surface_passes = surface_passes, .mattes = mattes});
+            },
+            py::arg("adaptive"), py::arg("denoising_passes") = false, py::arg("surface_passes") = false,
+            py::arg("mattes") = false, "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def_property_readonly(
@@ -119,15 +133,34 @@ void register_render(py::module_& module) {
             },
             "How many virtual lights there are, the photons that they are made of, and the seconds that took; once "
             "samples are done.")
-        .def("read", &read, py::arg("pass_name"),
-             "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
-             "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
-             "VolumeInd: what media scatter to the camera of light that comes to them "
-             "straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic "
-             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
-             "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
-             "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
-             "lobes; Denoising Normal.");
+        .def(
+            "read_mattes",
+            [](const Session& session, const string& kind, std::size_t rank) {
+                const Film& film = session.film();
+                const auto values = film.read_mattes(from_name<MatteKind>("kind", kind,
+                                                                          {{"OBJECT", MatteKind::object},
+                                                                           {"MATERIAL", MatteKind::material},
+                                                                           {"ASSET", MatteKind::asset}}),
+                                                     rank);
+                return py::array_t<float>({film.height(), film.width(), 4}, values.data());
+            },
+            py::arg("kind"), py::arg("rank"),
+            "With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this "
+            "rank "
+            "on, the largest share first.")
+        .def(
+            "read", &read, py::arg("pass_name"),
+            "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "
+            "the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and "
+            "VolumeInd: what media scatter to the camera of light that comes to them "
+            "straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic "
+            "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
+            "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
+            "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
+            "lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, "
+            "DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; "
+            "these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute "
+            "uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.");
 }
 
 }  // namespace pivot::bindings

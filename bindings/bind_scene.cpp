@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bindings/arrays.h"
+#include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/scene/scene.h"
 
@@ -87,7 +88,28 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
     return scene.add_mesh(std::move(mesh));
 }
 
-std::uint32_t visibility_of(bool camera_visible) { return camera_visible ? visible_to_all : visible_to_light; }
+using RayNames = std::vector<string>;
+
+/// All but what is named.
+std::uint32_t visibility_of(const RayNames& hidden_from) {
+    std::uint32_t visibility = visible_to_all;
+    for (const string& name : hidden_from)
+        visibility &= ~std::uint32_t{from_name<Visibility>("hidden_from", name,
+                                                           {{"CAMERA", visible_to_camera},
+                                                            {"DIFFUSE", visible_to_diffuse},
+                                                            {"GLOSSY", visible_to_glossy},
+                                                            {"TRANSMISSION", visible_to_transmission},
+                                                            {"VOLUME_SCATTER", visible_to_scatter},
+                                                            {"SHADOW", casts_shadows}})};
+    return visibility;
+}
+
+LightRules rules_of(const RayNames& hidden_from, std::uint32_t max_bounces) {
+    const std::uint32_t visibility = visibility_of(hidden_from);
+    return {.lights = visibility & visible_to_paths,
+            .max_bounces = max_bounces,
+            .casts_shadows = (visibility & casts_shadows) != 0};
+}
 
 std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
     Scene& scene, const std::map<string, std::array<float, 4>>& attributes) {
@@ -98,10 +120,11 @@ std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
 }
 
 std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh, const FloatArray& object_to_world,
-                            const std::vector<std::uint32_t>& materials, bool camera_visible,
-                            const std::array<float, 4>& color, float pass_index, const optional<FloatArray>& random,
-                            const optional<FloatArray>& particle_index, const optional<FloatArray>& generated,
-                            const optional<FloatArray>& uv, const std::map<string, std::array<float, 4>>& attributes) {
+                            const std::vector<std::uint32_t>& materials, const RayNames& hidden_from, bool holdout,
+                            const std::array<float, 2>& matte, const std::array<float, 4>& color, float pass_index,
+                            const optional<FloatArray>& random, const optional<FloatArray>& particle_index,
+                            const optional<FloatArray>& generated, const optional<FloatArray>& uv,
+                            const std::map<string, std::array<float, 4>>& attributes) {
     const string prefix = "object '" + name + "': ";
     require_shape(object_to_world, prefix + "object_to_world", {-1, 4, 4});
     const py::ssize_t count = object_to_world.shape(0);
@@ -125,11 +148,13 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
         if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
     }
     const py::gil_scoped_release release;
-    return scene.add_instances({name, mesh, {}, materials, visibility_of(camera_visible)}, transforms, facts);
+    return scene.add_instances({name, mesh, {}, materials, visibility_of(hidden_from), matte[0], matte[1], holdout},
+                               transforms, facts);
 }
 
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
-                int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m) {
+                int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m,
+                const optional<Projection>& projection, const optional<Lens>& lens) {
     require_shape(camera_to_world, "camera: camera_to_world", {4, 4});
     Camera camera;
     camera.world_from_camera = to_transform(camera_to_world.data());
@@ -140,14 +165,19 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
         window ? Window{(*window)[0], (*window)[1], (*window)[2], (*window)[3]} : Window{0, 0, width, height};
     camera.clip_start_m = clip_start_m;
     camera.clip_end_m = clip_end_m;
+    camera.projection = projection.value_or(Perspective{});
+    camera.lens = lens.value_or(Lens{});
     scene.set_camera(camera);
 }
 
 using MediumShare = std::shared_ptr<Medium>;
 
-Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface) {
+Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface, float pass_index = 0.0f,
+                   float matte = 0.0f) {
     material.medium = medium.value_or(nullptr);
     material.has_surface = has_surface;
+    material.pass_index = pass_index;
+    material.matte = matte;
     return material;
 }
 
@@ -179,12 +209,15 @@ void register_lights(py::module_& module) {
              py::arg("direction"), py::arg("half_angle_rad"), py::arg("irradiance"));
     py::class_<AreaLight>(module, "AreaLight",
                           "A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards "
-                          "cross(half_u, half_v) with the given radiance.")
+                          "cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less "
+                          "than pi.")
         .def(py::init([](const Triple& center, const Triple& half_u, const Triple& half_v, const Triple& radiance,
-                         bool ellipse) {
-                 return make_area_light(to_vec3(center), to_vec3(half_u), to_vec3(half_v), to_vec3(radiance), ellipse);
+                         bool ellipse, float spread_rad) {
+                 return make_area_light(to_vec3(center), to_vec3(half_u), to_vec3(half_v), to_vec3(radiance), ellipse,
+                                        spread_rad);
              }),
-             py::arg("center"), py::arg("half_u"), py::arg("half_v"), py::arg("radiance"), py::arg("ellipse") = false);
+             py::arg("center"), py::arg("half_u"), py::arg("half_v"), py::arg("radiance"), py::arg("ellipse") = false,
+             py::arg("spread_rad") = pi<float>);
 }
 
 }  // namespace
@@ -192,10 +225,23 @@ void register_lights(py::module_& module) {
 void register_scene(py::module_& module) {
     register_lights(module);
     constexpr float infinity = std::numeric_limits<float>::infinity();
+    py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh", "A scene's mesh, for scenes to come.");
+    py::class_<SharedMeshes, std::shared_ptr<SharedMeshes>>(
+        module, "SharedMeshes", "What scenes share that are made one after the other: meshes and their BVHs.")
+        .def(py::init<>());
     py::class_<Scene, std::shared_ptr<Scene>>(
         module, "Scene",
         "Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.")
         .def(py::init<>())
+        .def(py::init<std::shared_ptr<SharedMeshes>>(), py::arg("shared"),
+             "One of several that take meshes from each other.")
+        .def(
+            "mesh", [](const Scene& scene, std::uint32_t id) { return std::const_pointer_cast<Mesh>(scene.mesh(id)); },
+            py::arg("id"))
+        .def(
+            "add_shared_mesh", [](Scene& scene, const std::shared_ptr<Mesh>& mesh) { return scene.add_mesh(mesh); },
+            py::arg("mesh"),
+            "A mesh of another scene that was made with the same SharedMeshes. Returns its id in this one.")
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("corner_vertices"),
              py::arg("triangle_corners"), py::arg("corner_normals") = py::none(),
              py::arg("vertex_normals") = py::none(), py::arg("triangle_slots") = py::none(),
@@ -205,27 +251,45 @@ void register_scene(py::module_& module) {
              "(C, 1..4): what shaders read. Returns the mesh's id.")
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
-             py::arg("materials"), py::arg("camera_visible") = true,
-             py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f}, py::arg("pass_index") = 0.0f,
-             py::arg("random") = py::none(), py::arg("particle_index") = py::none(), py::arg("generated") = py::none(),
-             py::arg("uv") = py::none(), py::arg("attributes") = std::map<string, std::array<float, 4>>{},
-             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What "
+             py::arg("materials"), py::arg("hidden_from") = RayNames{}, py::arg("holdout") = false,
+             py::arg("matte") = std::array<float, 2>{}, py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f},
+             py::arg("pass_index") = 0.0f, py::arg("random") = py::none(), py::arg("particle_index") = py::none(),
+             py::arg("generated") = py::none(), py::arg("uv") = py::none(),
+             py::arg("attributes") = std::map<string, std::array<float, 4>>{},
+             "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; "
+             "hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and "
+             "SHADOW; holdout: a camera sees a hole in their place; matte: ids of "
+             "the object and the asset. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
              "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
         .def(
             "add_material",
             [](Scene& scene, const string& name, const Shader& material, const optional<MediumShare>& medium,
-               bool has_surface) { return scene.add_material(name, with_medium(material, medium, has_surface)); },
+               bool has_surface, float pass_index, float matte) {
+                return scene.add_material(name, with_medium(material, medium, has_surface, pass_index, matte));
+            },
             py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
+            py::arg("pass_index") = 0.0f, py::arg("matte") = 0.0f,
             "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
             "nothing but the medium is there.")
-        .def("add_light", &Scene::add_light, py::arg("name"), py::arg("light"))
+        .def(
+            "add_light",
+            [](Scene& scene, const string& name, const Light& light, const RayNames& hidden_from,
+               std::uint32_t max_bounces) { return scene.add_light(name, light, rules_of(hidden_from, max_bounces)); },
+            py::arg("name"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u,
+            "hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and "
+            "VOLUME_SCATTER; "
+            "SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.")
         .def(
             "set_material",
             [](Scene& scene, std::uint32_t id, const Shader& material, const optional<MediumShare>& medium,
                bool has_surface) { scene.set_material(id, with_medium(material, medium, has_surface)); },
             py::arg("id"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true)
-        .def("set_light", &Scene::set_light, py::arg("id"), py::arg("light"))
+        .def(
+            "set_light",
+            [](Scene& scene, std::uint32_t id, const Light& light, const RayNames& hidden_from,
+               std::uint32_t max_bounces) { scene.set_light(id, light, rules_of(hidden_from, max_bounces)); },
+            py::arg("id"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u)
         .def(
             "set_instance_transform",
             [](Scene& scene, std::uint32_t id, const FloatArray& object_to_world) {
@@ -235,10 +299,10 @@ void register_scene(py::module_& module) {
             py::arg("id"), py::arg("object_to_world"))
         .def(
             "set_instance_visibility",
-            [](Scene& scene, std::uint32_t id, bool camera_visible) {
-                scene.set_instance_visibility(id, visibility_of(camera_visible));
+            [](Scene& scene, std::uint32_t id, const RayNames& hidden_from) {
+                scene.set_instance_visibility(id, visibility_of(hidden_from));
             },
-            py::arg("id"), py::arg("camera_visible"))
+            py::arg("id"), py::arg("hidden_from"))
         .def("set_instance_materials", &Scene::set_instance_materials, py::arg("id"), py::arg("materials"),
              "materials: as in add_instances.")
         .def("remove_instance", &Scene::remove_instance, py::arg("id"))
@@ -259,10 +323,10 @@ void register_scene(py::module_& module) {
             py::arg("medium"), "A Medium that fills all space, or None.")
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
-             py::arg("clip_end_m") = infinity,
+             py::arg("clip_end_m") = infinity, py::arg("projection") = py::none(), py::arg("lens") = py::none(),
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
-             "frame "
-             "at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.");
+             "frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, "
+             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.");
 }
 
 }  // namespace pivot::bindings

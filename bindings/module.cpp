@@ -18,6 +18,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_material(module);
     register_images(module);
     register_shaders(module);
+    register_camera(module);
     register_scene(module);
     register_rays(module);
     register_light_samples(module);

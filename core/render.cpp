@@ -9,6 +9,7 @@
 
 #include "core/integrators/analytic.h"
 #include "core/integrators/monte_carlo.h"
+#include "core/integrators/seen_surfaces.h"
 
 namespace pivot {
 namespace {
@@ -18,8 +19,10 @@ constexpr int least_tile_size = 32;
 /// overhead.
 constexpr std::uint32_t max_samples_per_pass = 8, max_samples_per_sparse_pass = 64;
 constexpr std::size_t max_bad_samples = 8;
+constexpr std::size_t mattes_of_pixel = 4;  // about
 constexpr std::uint32_t places_when_adaptive = 16;
 constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
+constexpr std::uint32_t lens_dimension = 0;       // of samplers: the integrators leave it
 
 /// The squares from which samples reach a window's pixels, in tiles. Tiles of one colour, four in all, are a tile
 /// apart, and as wide as two reaches: their samples reach different pixels.
@@ -72,7 +75,10 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
       filter_(settings.filter_shape, settings.filter_width_px),
       squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
                scene_->camera().window.height() + 2 * filter_.reach_px()},
-      film_(scene_->camera().window.width(), scene_->camera().window.height(), settings.denoising_passes),
+      film_(scene_->camera().window.width(), scene_->camera().window.height(),
+            {.own_sums = settings.denoising_passes,
+             .surface_passes = settings.surface_passes,
+             .mattes = settings.mattes}),
       total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
@@ -98,6 +104,7 @@ void Session::start() {
         const std::lock_guard lock(mutex_);
         fault_ = fault;
         has_ended_ = true;
+        end_time_ = std::chrono::steady_clock::now();
         ended_.notify_all();
     });
 }
@@ -109,8 +116,10 @@ bool Session::wait(double seconds) {
     return ended;
 }
 
-std::size_t Session::bytes_per_pixel(bool adaptive, bool denoising_passes) {
-    const std::size_t film = sizeof(Pixel) + (denoising_passes ? sizeof(OwnSum) : 0);
+std::size_t Session::bytes_per_pixel(bool adaptive, const FilmParts& parts) {
+    const std::size_t film = sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) +
+                             (parts.surface_passes ? sizeof(SurfacePixel) : 0) +
+                             (parts.mattes ? sizeof(Mattes) + mattes_of_pixel * sizeof(Matte) : 0);
     if (!adaptive) return film;
     constexpr std::size_t numbers_of_counts = 16;  // while they are made
     return 2 * (film + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
@@ -121,6 +130,13 @@ double Session::progress() const {
     if (!(settings_.time_limit_s > 0.0f)) return of_samples;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_time_;
     return std::clamp(elapsed.count() / static_cast<double>(settings_.time_limit_s), of_samples, 1.0);
+}
+
+double Session::sampling_s() const {
+    const std::lock_guard lock(mutex_);
+    if (sampling_start_ == std::chrono::steady_clock::time_point{}) return 0.0;
+    const auto end = has_ended_ ? end_time_ : std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(end - sampling_start_).count();
 }
 
 std::vector<std::string> Session::bad_samples() const {
@@ -139,6 +155,10 @@ void Session::run() {
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
     if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
+    {
+        const std::lock_guard lock(mutex_);
+        sampling_start_ = clock::now();
+    }
     if (even_samples(settings_) < settings_.samples)
         render_adaptively();
     else
@@ -148,7 +168,10 @@ void Session::run() {
 void Session::render_adaptively() {
     const bool analytic = settings_.integrator == Integrator::analytic;
     const std::uint32_t whole = even_samples(settings_), half = whole / 2;
-    Film other_film(film_.width(), film_.height(), film_.keeps_own_sums());
+    Film other_film(film_.width(), film_.height(),
+                    {.own_sums = film_.keeps_own_sums(),
+                     .surface_passes = film_.keeps_surface_passes(),
+                     .mattes = film_.keeps_mattes()});
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
     const auto round_of = [&](std::uint32_t number, Film& film) {
@@ -262,20 +285,36 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     const PixelGrid grid{reached.x1 - reached.x0, reached.y1 - reached.y0};
     std::vector<Pixel> pixels;
     round.film.load(reached, pixels);
+    std::vector<SurfacePixel> surfaces;
+    if (settings_.surface_passes) round.film.load_surfaces(reached, surfaces);
+    std::vector<Mattes> mattes;
+    if (settings_.mattes) round.film.load_mattes(reached, mattes);
+    std::vector<SurfacePasses> passes;
+    std::vector<SeenMatte> seen_mattes;
     const PixelGrid own_grid{tile.x1 - tile.x0, tile.y1 - tile.y0};
     std::vector<OwnSum> own(round.film.keeps_own_sums() ? own_grid.size() : 0);
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
-        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y);
+        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes, seen_mattes);
         if (row.empty()) continue;
         samples_added += row.size();
         std::size_t first = 0;
         for (int x = tile.x0; x < tile.x1; ++x) {
             const bool is_seen = x >= 0 && x < film_.width() && y >= 0 && y < film_.height();
-            if (sees_centers && is_seen) see_center(pixels[grid.index(x - reached.x0, y - reached.y0)], x, y);
+            if (sees_centers && is_seen) {
+                const std::size_t at = grid.index(x - reached.x0, y - reached.y0);
+                see_center(pixels[at], surfaces.empty() ? nullptr : &surfaces[at], x, y);
+            }
             const std::size_t square = squares_.index(x + reach, y + reach), count = count_of(round, pass, square);
             const std::span<const Sample> samples = std::span(row).subspan(first, count);
+            const std::span<const SurfacePasses> told =
+                surfaces.empty() ? std::span<const SurfacePasses>() : std::span(passes).subspan(first, count);
+            const auto from = [&](std::size_t ray) {
+                return std::ranges::lower_bound(seen_mattes, ray, {}, &SeenMatte::ray);
+            };
+            const std::span<const SeenMatte> shown(from(first), from(first + count));
+            const std::size_t first_ray = first;
             const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
@@ -287,13 +326,17 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
             for (int v = y - reach; v <= y + reach; ++v) {
                 for (int u = x - reach; u <= x + reach; ++u, ++weights) {
                     if (u < reached.x0 || u >= reached.x1 || v < reached.y0 || v >= reached.y1) continue;
-                    pixels[grid.index(u - reached.x0, v - reached.y0)].samples.add(samples, *weights, variance,
-                                                                                   weight_in(u, v));
+                    const std::size_t at = grid.index(u - reached.x0, v - reached.y0);
+                    pixels[at].samples.add(samples, *weights, variance, weight_in(u, v));
+                    if (!surfaces.empty()) surfaces[at].add(told, *weights, weight_in(u, v));
+                    if (!mattes.empty()) mattes[at].add(shown, first_ray, *weights, weight_in(u, v));
                 }
             }
         }
     }
     round.film.store(reached, pixels);
+    if (!surfaces.empty()) round.film.store_surfaces(reached, surfaces);
+    if (!mattes.empty()) round.film.store_mattes(reached, mattes);
     for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, film_.height()) && !own.empty(); ++y) {
         const int x0 = std::max(tile.x0, 0), x1 = std::min(tile.x1, film_.width());
         round.film.add_own(x0, y,
@@ -338,9 +381,12 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
     }
 }
 
-std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y) {
+std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
+                                        std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
+    const bool is_analytic = settings_.integrator == Integrator::analytic, has_lens = camera.lens.radius_m > 0.0f;
+    const std::uint32_t seed = is_analytic ? 0u : round.seed;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> indices;
     std::vector<Sampler> samplers;
@@ -355,28 +401,34 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         const std::size_t count = count_of(round, pass, square);
         const std::vector<Vec2f>& offsets = pass.places_of(frame_x, frame_y).offsets;
         for (std::size_t k = 0; k < count; ++k) {
-            rays.push_back(camera.ray(center + offsets[k]));
             pixels.push_back(static_cast<std::uint32_t>(x - x0));
             const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
             indices.push_back(index);
-            samplers.push_back(pixel_sampler(column, line, round.seed, pass.log2_samples, index));
+            samplers.push_back(pixel_sampler(column, line, seed, pass.log2_samples, index));
+            rays.push_back(has_lens ? camera.ray(center + offsets[k], samplers.back().point(lens_dimension))
+                                    : camera.ray(center + offsets[k]));
         }
     }
     std::vector<Sample> samples(rays.size());
+    passes.assign(settings_.surface_passes ? rays.size() : 0, {});
+    mattes.clear();
     if (rays.empty()) return samples;
-    if (settings_.integrator == Integrator::analytic) {
+    if (!passes.empty() || settings_.mattes) see_surfaces(*scene_, settings_, rays, passes, mattes);
+    if (is_analytic) {
         shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {
-        trace_paths(*scene_, settings_, rays, samplers, samples);
+        trace_paths(*scene_, settings_, rays, samplers, samples, passes);
     }
     const std::size_t first_square = squares_.index(x0 + reach, y + reach);
     std::size_t at = 0;
     for (int x = x0; x < x1; ++x) {
         const std::size_t square = first_square + static_cast<std::size_t>(x - x0);
         for (const std::size_t end = at + count_of(round, pass, square); at < end; ++at) {
+            if (!(rays[at].far_m > 0.0f)) samples[at] = {};  // the lens sees nothing there
             if (!is_finite(samples[at])) {
                 report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
                 samples[at] = {.alpha = 0.0f};
+                if (!passes.empty()) passes[at] = {};
             }
             if (!round.pilot.empty()) round.pilot[square].add(mean_component(samples[at].radiance));
         }
@@ -384,15 +436,18 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     return samples;
 }
 
-void Session::see_center(Pixel& pixel, int x, int y) const {
+void Session::see_center(Pixel& pixel, SurfacePixel* surfaces, int x, int y) const {
     const Camera& camera = scene_->camera();
     const Vec2f center(static_cast<float>(camera.window.x0 + x) + 0.5f,
                        static_cast<float>(camera.window.y0 + y) + 0.5f);
     const Ray ray = camera.ray(center);
     const auto hit = scene_->intersect(ray, visible_to_camera);
-    if (!hit) return;
+    if (!hit || scene_->is_holdout(*hit)) return;
     const Vec3f position = scene_->surface_point(ray, *hit).position;
     pixel.center = {camera.depth_m(position), position};
+    if (!surfaces) return;
+    surfaces->object_index = scene_->facts_of(*hit).pass_index;
+    surfaces->material_index = scene_->material_index_of(*hit);
 }
 
 void Session::report_bad_sample(int x, int y, const Ray& ray) {

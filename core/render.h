@@ -35,9 +35,11 @@ class Session {
     void stop() { stop_ = true; }
 
     /// What a session allocates for each pixel of its window.
-    static std::size_t bytes_per_pixel(bool adaptive, bool denoising_passes);
+    static std::size_t bytes_per_pixel(bool adaptive, const FilmParts& parts);
 
     double progress() const;
+    /// Since the scene was ready, until the render has ended.
+    double sampling_s() const;
     std::uint32_t samples_done() const { return samples_done_; }
     /// Of all squares.
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
@@ -67,7 +69,9 @@ class Session {
     bool render_round(const Round& round, std::uint32_t samples);
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
-    std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y);
+    /// passes, mattes: of these, where they are asked for.
+    std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
+                                   std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes);
     /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
     /// rising.
     void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
@@ -75,7 +79,8 @@ class Session {
                         std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
     static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
-    void see_center(Pixel& pixel, int x, int y) const;
+    /// surfaces: null where nobody asks.
+    void see_center(Pixel& pixel, SurfacePixel* surfaces, int x, int y) const;
     void report_bad_sample(int x, int y, const Ray& ray);
     bool should_stop() const;
 
@@ -93,6 +98,7 @@ class Session {
     mutable std::mutex mutex_;  ///< of what follows
     std::condition_variable ended_;
     bool has_ended_ = false;
+    std::chrono::steady_clock::time_point sampling_start_, end_time_;
     std::exception_ptr fault_;
     std::vector<std::string> bad_samples_;
     std::thread thread_;

@@ -20,6 +20,8 @@ from .tangents import corner_tangents
 
 Array = NDArray[np.float32]
 
+UV_OF_PASS = "uv:"  # what the pass shows: the map that is active for rendering
+
 # By the data type of Blender's attributes: the property of their elements, and how many numbers it has.
 _VALUES = {
     "FLOAT": ("value", 1),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import bpy
 import numpy as np
@@ -13,10 +12,7 @@ from numpy.typing import NDArray
 from ..report import RenderError, naming
 from .census import report_left_out
 from .context import Context
-
-ViewPlane = tuple[float, float, float, float]  # (left, right, bottom, top) at z = -1 in camera space
-
-_ORTHOGRAPHIC_DISTANCE = 100.0  # of the camera that stands in for an orthographic viewport, in view widths
+from .optics import optics_of
 
 
 @dataclass(frozen=True)
@@ -48,20 +44,6 @@ def _border_pixel(border: float, size: int) -> int:
     return int(np.float32(border) * np.float32(size))  # Blender's own rounding, in single precision
 
 
-def view_plane(camera: bpy.types.Camera, shift_x: float, width: float, height: float) -> ViewPlane:
-    """Of the full frame.
-
-    width, height: of the frame in pixels, times the pixel aspect.
-    """
-    horizontal = camera.sensor_fit == "HORIZONTAL" or (camera.sensor_fit == "AUTO" and width >= height)
-    sensor = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
-    fitted = sensor / camera.lens  # extent of the fitted side, which shift is measured in
-    pixel = fitted / (width if horizontal else height)
-    center_x, center_y = shift_x * fitted, camera.shift_y * fitted
-    half_x, half_y = width * pixel / 2, height * pixel / 2
-    return center_x - half_x, center_x + half_x, center_y - half_y, center_y + half_y
-
-
 def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame) -> None:
     """Set the core's camera to the one the engine renders with. Raises RenderError naming the camera and the fix."""
     scene = context.depsgraph.scene_eval
@@ -69,33 +51,28 @@ def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame
     if original is None:
         raise RenderError(f"scene '{scene.name}' has no camera. Fix: add one and make it the scene's active camera")
     camera = original.evaluated_get(context.depsgraph)
-    data = camera.data
-    render = scene.render
-    _check(camera)
-    report_left_out(data, f"camera '{camera.name}'", context.reporter)
+    render, owner = scene.render, f"camera '{camera.name}'"
+    if camera.type == "CAMERA":
+        report_left_out(camera.data, owner, context.reporter)
+        if render.use_multiview and camera.data.type == "PANO" and camera.data.stereo.use_spherical_stereo:
+            context.reporter.warn(f"{owner}: Spherical Stereo is not supported, its eyes stand side by side")
     camera_to_world = without_scale(np.array(engine.camera_model_matrix(camera)))
     if not np.isfinite(camera_to_world).all():
         raise RenderError(
-            f"camera '{camera.name}': its transform is not finite or has no extent. Fix: check its location, rotation, "
+            f"{owner}: its transform is not finite or has no extent. Fix: check its location, rotation, "
             "scale, drivers and constraints"
         )
     width, height = frame.width * render.pixel_aspect_x, frame.height * render.pixel_aspect_y
-    plane = view_plane(data, engine.camera_shift_x(camera), width, height)
-    with naming(f"camera '{camera.name}'", "check its lens, shift and clip distances"):
+    # Blender reads any object's data as a camera's there.
+    shift_x = engine.camera_shift_x(camera) if camera.type == "CAMERA" else 0.0
+    optics = optics_of(camera, camera_to_world, shift_x, width, height)
+    with naming(owner, "check its lens, shift, clip distances and depth of field"):
         context.scene.set_camera(
-            camera_to_world, plane, frame.width, frame.height, frame.window, data.clip_start, data.clip_end
-        )
-
-
-def _check(camera: bpy.types.Object) -> None:
-    """Raise RenderError for a camera Pivot cannot render."""
-    data: Any = camera.data
-    if camera.type != "CAMERA":
-        raise RenderError(f"object '{camera.name}' is the scene's camera but no camera. Fix: choose a camera object")
-    if data.type != "PERSP":
-        raise RenderError(
-            f"camera '{camera.name}' is {data.bl_rna.properties['type'].enum_items[data.type].name.lower()}. "
-            "Fix: set its lens type to Perspective, the one Pivot renders"
+            camera_to_world,
+            width=frame.width,
+            height=frame.height,
+            window=frame.window,
+            **optics.arguments(context.core),
         )
 
 
@@ -106,36 +83,3 @@ def without_scale(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
         length = math.sqrt(float(np.sum(matrix[:3, axis] ** 2)))
         result[:3, axis] = matrix[:3, axis] / length if length > 0 else math.nan
     return result
-
-
-@dataclass(frozen=True)
-class RegionView:
-    """A camera that sees what a 3D view does."""
-
-    camera_to_world: NDArray[np.float64]  # (4, 4)
-    view_plane: ViewPlane
-    clip_m: tuple[float, float]
-
-    def same_as(self, other: RegionView | None) -> bool:
-        return (
-            other is not None
-            and bool(np.array_equal(self.camera_to_world, other.camera_to_world))
-            and (self.view_plane, self.clip_m) == (other.view_plane, other.clip_m)
-        )
-
-
-def region_view(region: bpy.types.RegionView3D, space: bpy.types.SpaceView3D) -> RegionView:
-    """The camera of a 3D view; an orthographic one is seen from far off."""
-    camera_to_world = np.array(region.view_matrix.inverted())
-    projection = np.array(region.window_matrix)
-    orthographic = projection[3, 3] == 1
-    # A point (x, y, -1) projects to scale * x + offset in -1..1; without perspective any (x, y, z) does.
-    scale = projection[[0, 1], [0, 1]]
-    offset = projection[:2, 3] if orthographic else -projection[:2, 2]
-    (left, bottom), (right, top) = ((side - offset) / scale for side in (-1, 1))
-    if not orthographic:
-        return RegionView(camera_to_world, (left, right, bottom, top), (space.clip_start, space.clip_end))
-    distance = _ORTHOGRAPHIC_DISTANCE * (right - left)
-    camera_to_world[:3, 3] += distance * camera_to_world[:3, 2]
-    plane = (left / distance, right / distance, bottom / distance, top / distance)
-    return RegionView(camera_to_world, plane, (0.0, distance + space.clip_end))

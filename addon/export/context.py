@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any
 
@@ -10,6 +10,7 @@ import bpy
 
 from ..report import Reporter
 from .images import ImageTable
+from .mattes import Mattes
 
 
 @dataclass(frozen=True)
@@ -19,3 +20,4 @@ class Context:
     depsgraph: bpy.types.Depsgraph
     reporter: Reporter
     images: ImageTable
+    mattes: Mattes = field(default_factory=Mattes)

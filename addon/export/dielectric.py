@@ -6,10 +6,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from .highlight import share
 from .program import Program, Value
 
-_COLOURS = ("reflection", "transmission", "weight")
-_VALUES = (*_COLOURS, "f0_tint", "alpha", "ior", "fresnel")
+_COLOURS = ("reflection", "transmission")
+_VALUES = (*_COLOURS, "weight", "f0_tint", "alpha", "ior", "fresnel")
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,8 @@ class Dielectric:
         return Dielectric(**(defaults | given))
 
     def scaled(self, weight: Value) -> Dielectric:
-        return replace(self, **{name: getattr(self, name) * weight for name in _COLOURS})
+        colours = {name: getattr(self, name) * weight for name in _COLOURS}
+        return replace(self, **colours, weight=self.weight * share(weight))
 
     def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
         """As Surface.core_shader gives lobes to the core."""
@@ -73,4 +75,4 @@ def at_most(dielectrics: tuple[Dielectric, ...], most: int) -> tuple[Dielectric,
 
 
 def _sum(a: Dielectric, b: Dielectric) -> Dielectric:
-    return replace(a, **{name: getattr(a, name) + getattr(b, name) for name in _COLOURS})
+    return replace(a, **{name: getattr(a, name) + getattr(b, name) for name in (*_COLOURS, "weight")})

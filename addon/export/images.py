@@ -76,6 +76,7 @@ class ImageTable:
     shows_frames: bool = False  # whether any picture is one of a sequence or movie
     _pictures: dict[tuple[int, int], Picture | None] = field(default_factory=dict)
     _ndfs: dict[int, Any] = field(default_factory=dict)
+    _skies: dict[Any, Any] = field(default_factory=dict)
 
     def picture(self, image: Any, user: Any, warn: Callable[[str], None]) -> Picture | None:
         """What a node shows; None, and a warning, where there is nothing. user: its bpy.types.ImageUser."""
@@ -90,6 +91,13 @@ class ImageTable:
                 warn(f"image '{image.name}': {text}")
             self._pictures[key] = entry.picture
         return self._pictures[key]
+
+    def sky(self, key: Any, pixels: Callable[[], Any]) -> Any:
+        """pivot_core.Image of a sky. key: all that it depends on. pixels: makes it."""
+        if key not in self._skies:
+            entry = self.cache.take((0, repr(key)), key, lambda: _Entry(key, self.core.Image(pixels())))
+            self._skies[key] = entry.picture
+        return self._skies[key]
 
     def ndf(self, image: Any) -> Any:
         """pivot_core.TabulatedNdf of an image's red channel.

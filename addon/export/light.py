@@ -20,11 +20,14 @@ from .context import Context
 from .nodes import Owner, active_tree
 from .program import Program
 from .shader import light_emission
+from .visibility import Visible
 
 _AREA_EXITANCE_PER_RADIANCE = math.pi if bpy.app.version >= (4, 0) else 4.0
 
 
-def export_light(context: Context, light_object: bpy.types.Object, object_to_world: NDArray[np.float64]) -> None:
+def export_light(
+    context: Context, light_object: bpy.types.Object, object_to_world: NDArray[np.float64], visible: Visible
+) -> None:
     """Add one light object. object_to_world: (4, 4). Raises RenderError naming the object."""
     data: Any = light_object.data
     if not np.isfinite(object_to_world).all():
@@ -41,7 +44,22 @@ def export_light(context: Context, light_object: bpy.types.Object, object_to_wor
     with naming(owner, "give its power, colour and size finite values"):
         light = _LIGHTS[data.type](context, data, _strength(context, data, owner), object_to_world)
         if light is not None:
-            context.scene.add_light(light_object.name, light)
+            context.scene.add_light(
+                light_object.name, light, hidden_from=_hidden_from(visible, data), max_bounces=_max_bounces(data)
+            )
+
+
+def _hidden_from(visible: Visible, data: Any) -> list[str]:
+    """What it does not light, as the core names it, and SHADOW where nothing hides it."""
+    cycles = getattr(data, "cycles", None)
+    # Blender 4.5 dropped Cycles' own switch for Blender's.
+    casts_shadows = cycles.cast_shadow if hasattr(cycles, "cast_shadow") else data.use_shadow
+    lit = [name for name in visible.hidden_from if name not in {"CAMERA", "SHADOW"}]  # those are for surfaces
+    return lit if casts_shadows else [*lit, "SHADOW"]
+
+
+def _max_bounces(data: Any) -> int:
+    return int(getattr(getattr(data, "cycles", None), "max_bounces", 1024))
 
 
 def _is_portal(data: Any) -> bool:
@@ -148,6 +166,7 @@ def _area(context: Context, data: Any, strength: NDArray[np.float64], object_to_
         half_v=half_v.tolist(),
         radiance=radiance.tolist(),
         ellipse=ellipse,
+        spread_rad=data.spread,
     )
 
 

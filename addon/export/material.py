@@ -14,6 +14,7 @@ import bpy
 from ..report import naming
 from .baked import Interior, is_placed, reads_place
 from .context import Context
+from .dielectric import Dielectric
 from .grids import Lattice
 from .media import core_medium, report_analytic
 from .microfacets import with_ndf
@@ -22,6 +23,8 @@ from .program import Program
 from .shader import grey, material_surface
 from .surface import Surface
 from .volume import Volume, default_volume, node_volume, output_volume
+
+_SMOOTH_ALPHA = 0.01  # as core/integrators/look_rays.h has it
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,12 @@ class MaterialTable:
             name = material.name if material else "none"
             with naming(_where(material, user), "give its colours and numbers finite values"):
                 self._materials[key] = self._context.scene.add_material(
-                    f"{name} in {user.name}" if varies else name, look.shader, medium=medium, has_surface=look.is_there
+                    f"{name} in {user.name}" if varies else name,
+                    look.shader,
+                    medium=medium,
+                    has_surface=look.is_there,
+                    pass_index=material.pass_index if material else 0,
+                    matte=self._context.mattes.id_of("MATERIAL", material.name if material else "default_surface"),
                 )
         return self._materials[key]
 
@@ -155,11 +163,19 @@ class MaterialTable:
         """What the analytic integrator leaves out of a surface."""
         if self._context.depsgraph.scene_eval.pivot.integrator != "ANALYTIC":
             return
+        left_out = []
         if not surface.emission.is_constant:
-            self._context.reporter.warn(
-                f"{owner.name}: in the analytic integrator its triangles light others by a mean of each, in grey. "
-                "Fix: use Monte Carlo"
-            )
+            left_out.append("its triangles light others by a mean of each, in grey")
+        if any(_is_frosted(dielectric) for dielectric in surface.dielectrics):
+            left_out.append("lamps do not shine through its rough glass")
+        for what in left_out:
+            self._context.reporter.warn(f"{owner.name}: in the analytic integrator {what}. Fix: use Monte Carlo")
+
+
+def _is_frosted(dielectric: Dielectric) -> bool:
+    """Whether what is behind it is seen by a few rays of a lobe: core/integrators/look_rays.h."""
+    alpha = dielectric.alpha
+    return not dielectric.transmission.is_always(0) and not (alpha.is_constant and alpha.numbers[0] <= _SMOOTH_ALPHA)
 
 
 def _volume_input(material: bpy.types.Material) -> Any:

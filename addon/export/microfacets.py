@@ -30,7 +30,8 @@ def with_ndf(surface: Surface, material: bpy.types.Material, owner: Owner, conte
             table = context.images.ndf(image)
     except RenderError as error:
         raise RenderError(f"{owner.name}, {error}") from error
-    surface, exact = surface.within(MAX_LOBES - 1)
+    beneath = [highlight for highlight in surface.highlights if not highlight.is_coat]
+    surface, exact = surface.without_axes(*beneath).within(MAX_LOBES - 1)
     if not exact:
         owner.reporter.warn(
             f"{owner.name}: more than {MAX_LOBES} lobes with microfacets of an image are not supported, the weakest "

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..report import RenderError, Reporter, naming
-from .attributes import is_of_mesh, mesh_attributes, object_attributes
+from .attributes import UV_OF_PASS, is_of_mesh, mesh_attributes, object_attributes
 from .baked import Interior
 from .census import report_left_out
 from .context import Context
@@ -21,8 +21,11 @@ from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
 from .material import MaterialTable, Slots
+from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
+from .mesh_cache import MeshCache
 from .smoke import has_smoke, smoke_domain, smoke_grids
+from .visibility import Visible, visible
 from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
 
@@ -37,7 +40,8 @@ class _Group:
     name: str  # of the Blender object
     mesh: int
     materials: tuple[int, ...]
-    camera_visible: bool
+    visible: Visible
+    matte: tuple[float, float]  # ids of the object and its asset
     color: tuple[float, float, float, float]
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
@@ -50,13 +54,16 @@ def _group_of(
     mesh: int,
     materials: tuple[int, ...],
     is_placed: bool,
+    mattes: Mattes,
     reads: frozenset[str] = frozenset(),
 ) -> _Group:
+    matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return _Group(
         name=blender_object.name,
         mesh=mesh,
         materials=materials,
-        camera_visible=blender_object.visible_camera,
+        visible=Visible(),
+        matte=matte,
         color=tuple(blender_object.color),
         pass_index=blender_object.pass_index,
         reads=reads,
@@ -78,17 +85,21 @@ def export_scene(
     reporter: Reporter,
     check_cancel: Callable[[], None],
     cache: ImageCache | None = None,
+    meshes: MeshCache | None = None,
+    is_shown: Callable[[bpy.types.Object], bool] | None = None,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
-    check_cancel: called between objects, may raise. cache: of exports before and to come. Keeps nothing of the
-    depsgraph but in the Context returned. Raises RenderError naming the object at fault.
+    check_cancel: called between objects, may raise. cache, meshes: of exports before and to come. is_shown: of an
+    evaluated object; None: all are. Keeps nothing of the depsgraph but in the Context returned. Raises RenderError
+    naming the object at fault.
     """
     images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
-    context = Context(core, core.Scene(), depsgraph, reporter, images)
+    scene = core.Scene() if meshes is None else core.Scene(meshes.shared)
+    context = Context(core, scene, depsgraph, reporter, images)
     _report_settings(context)
     world_shines = export_world(context)
-    _Exporter(context, check_cancel, world_shines).export_objects()
+    _Exporter(context, check_cancel, world_shines, meshes).export_objects(is_shown)
     return context
 
 
@@ -108,34 +119,43 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 
 class _Exporter:
-    def __init__(self, context: Context, check_cancel: Callable[[], None], world_shines: bool) -> None:
+    def __init__(
+        self, context: Context, check_cancel: Callable[[], None], world_shines: bool, meshes: MeshCache | None
+    ) -> None:
         self._context = context
+        self._cache = meshes
         self._check_cancel = check_cancel
         self._materials = MaterialTable(context, world_shines)
         # By the evaluated data's address, what is read, and the slots whose faces rays pass.
         self._meshes: dict[tuple[int, frozenset[str], frozenset[int]], list[tuple[int, bool]]] = {}
+        self._visibles: dict[tuple[int, int], Visible] = {}  # by the original object and its instancer
         self._groups: dict[tuple[Any, ...], list[_Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[_Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[_Group, list[int]] = defaultdict(list)
 
-    def export_objects(self) -> None:
+    def export_objects(self, is_shown: Callable[[bpy.types.Object], bool] | None) -> None:
         instances = self._context.depsgraph.object_instances
         told = Instances.read(instances)
         layer = self._context.depsgraph.view_layer_eval
         for index, instance in enumerate(instances):
-            if not instance.show_self:
-                continue
             blender_object = instance.object
+            instancer = instance.parent if instance.is_instance else None
+            if not instance.show_self or not (is_shown is None or is_shown(blender_object)):
+                continue
             if blender_object.type == "LIGHT":
-                export_light(self._context, blender_object, told.object_to_world[index].astype(np.float64))
+                place = told.object_to_world[index].astype(np.float64)
+                export_light(self._context, blender_object, place, self._visible(blender_object, instancer))
             elif layer.use_solid and blender_object.type == "MESH":
-                for group in self._mesh_groups(blender_object, instance, told, index):
+                seen = self._visible(blender_object, instancer)
+                for of_any in self._mesh_groups(blender_object, instance, told, index):
+                    group = replace(of_any, visible=seen)
                     self._instances[group].append(index)
                     if "particle:" in group.reads:
                         self._particles[group].append(particle_index(instance))
             elif layer.use_volumes and blender_object.type == "VOLUME":
-                for group in self._volume_groups(blender_object, told, index):
-                    self._instances[group].append(index)
+                seen = self._visible(blender_object, instancer)
+                for of_any in self._volume_groups(blender_object, told, index):
+                    self._instances[replace(of_any, visible=seen)].append(index)
             elif layer.use_solid and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
@@ -145,6 +165,17 @@ class _Exporter:
                     f"object '{group.name}': its volume depends on where it is, its instances are filled as the first"
                 )
             self._add_instances(group, indices, told)
+
+    def _visible(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> Visible:
+        key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
+        if key not in self._visibles:
+            self._visibles[key] = found = visible(blender_object, instancer, self._context.depsgraph.view_layer)
+            is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
+            if is_analytic and blender_object.type == "MESH" and {"DIFFUSE", "GLOSSY"} & set(found.hidden_from):
+                self._warn(
+                    blender_object, "in the analytic integrator what comes from it lights all. Fix: use Monte Carlo"
+                )
+        return self._visibles[key]
 
     def _mesh_groups(
         self, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
@@ -180,6 +211,7 @@ class _Exporter:
                     part,
                     slots.ids_without_surface() if is_passed else slots.ids,
                     slots.is_placed,
+                    self._context.mattes,
                     slots.attributes,
                 )
                 for part, is_passed in self._core_meshes(blender_object, mesh, slots)
@@ -201,7 +233,7 @@ class _Exporter:
             return []
         slots = Slots((filling.id,), frozenset(), frozenset(), filling.is_placed)
         [(core_mesh, _)] = self._core_meshes(blender_object, interior.mesh, slots)
-        return [_group_of(blender_object, core_mesh, slots.ids, slots.is_placed)]
+        return [_group_of(blender_object, core_mesh, slots.ids, slots.is_placed, self._context.mattes)]
 
     def _volume_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
         """The box around a Volume object's grids; none where there is nothing to see."""
@@ -227,7 +259,7 @@ class _Exporter:
         if filling is None or filling.lattice is None:  # Cycles, too, makes a volume only where it reads a grid
             return []
         mesh = self._context.scene.add_mesh(blender_object.name, **box_arrays(filling.lattice))
-        return [_group_of(blender_object, mesh, (filling.id,), filling.is_placed)]
+        return [_group_of(blender_object, mesh, (filling.id,), filling.is_placed, self._context.mattes)]
 
     def _core_meshes(
         self, blender_object: bpy.types.Object, mesh: bpy.types.Mesh, slots: Slots
@@ -236,17 +268,25 @@ class _Exporter:
 
         The core lets rays pass all of an instance's faces or none. mesh: that, with what is edited in Edit Mode.
         """
-        names = frozenset(filter(is_of_mesh, slots.attributes))
+        names, last_slot = frozenset(filter(is_of_mesh, slots.attributes)), len(slots.ids) - 1
+        if self._context.depsgraph.view_layer.use_pass_uv:
+            names |= {UV_OF_PASS}
         key = (blender_object.data.as_pointer(), names, slots.without_surface)
-        if key not in self._meshes:
+
+        def add() -> list[tuple[int, bool]]:
             fix = "correct these vertices in Edit Mode, or the modifier, shape key or driver that makes them"
             with naming(f"object '{blender_object.name}'", fix):
                 arrays = mesh_arrays(mesh)
                 attributes = vars(mesh_attributes(mesh, arrays, names))
-                self._meshes[key] = [
+                return [
                     (self._context.scene.add_mesh(blender_object.name, **vars(part), **attributes), is_passed)
-                    for part, is_passed in arrays.parted(slots.without_surface, last_slot=len(slots.ids) - 1)
+                    for part, is_passed in arrays.parted(slots.without_surface, last_slot)
                 ]
+
+        if key not in self._meshes:
+            how = (names, slots.without_surface, last_slot if slots.without_surface else None)
+            cache, scene = self._cache, self._context.scene
+            self._meshes[key] = add() if cache is None else cache.take(scene, blender_object, how, add)
         return self._meshes[key]
 
     def _add_instances(self, group: _Group, indices: list[int], told: Instances) -> None:
@@ -261,7 +301,9 @@ class _Exporter:
             group.mesh,
             np.ascontiguousarray(object_to_world),
             group.materials,
-            camera_visible=group.camera_visible,
+            hidden_from=list(group.visible.hidden_from),
+            holdout=group.visible.is_holdout,
+            matte=group.matte,
             color=group.color,
             pass_index=group.pass_index,
             random=told.random_of(group.name, indices),

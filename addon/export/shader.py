@@ -11,8 +11,12 @@ from dataclasses import replace
 
 import bpy
 
+from . import cloth
 from .census import INPUTS
 from .dielectric import Dielectric
+from .highlight import Highlight, f82, sides, sides_of_glossy
+from .layers import beneath_dielectric, brushed, coated, rotation
+from .lobe import Lobe
 from .nodes import (
     MID_GREY,
     Owner,
@@ -25,6 +29,7 @@ from .nodes import (
     number,
     output_socket,
     source,
+    tangent,
 )
 from .program import Program, Value
 from .surface import Surface, added
@@ -117,12 +122,16 @@ def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket
         return scaled[0]
     total, exact = added(*scaled)
     if not exact:
-        owner.warn(feed.node, "shaders of different normals cannot be mixed, all take the first one's")
+        owner.warn(feed.node, "shaders of different normals or tangents cannot be mixed, all take the first one's")
     return total
 
 
 def _diffuse(feed: Socket, owner: Owner) -> Surface:
-    return Surface.of(owner.program, diffuse=colour(feed.input("Color"), owner), normal=normal(feed, owner))
+    tint, roughness = colour(feed.input("Color"), owner), number(feed.input("Roughness"), owner).clamped()
+    if roughness.is_always(0):
+        return Surface.of(owner.program, diffuse=tint, normal=normal(feed, owner))
+    rough = cloth.rough_diffuse(tint.at_least(0.0), tint, roughness)
+    return Surface.of(owner.program, lobes=(rough,), normal=normal(feed, owner))
 
 
 def _translucent(feed: Socket, owner: Owner) -> Surface:
@@ -131,39 +140,41 @@ def _translucent(feed: Socket, owner: Owner) -> Surface:
 
 def _glossy(feed: Socket, owner: Owner) -> Surface:
     tint = colour(feed.input("Color"), owner)
-    return Surface.of(
-        owner.program,
-        alpha=_alpha(feed, owner),
-        conductor_f0=tint,
-        conductor_f90=tint,
-        conductor_weight=owner.program.number(1.0),
-        multiscatter=_multiscatter(feed, owner),
-        normal=normal(feed, owner),
-    )
+    curve = {"conductor_f0": tint, "conductor_f90": tint, "conductor_weight": owner.program.number(1.0)}
+    alpha, anisotropy = _alpha(feed, owner), feed.find_input("Anisotropy")
+    if anisotropy is None or is_constant(anisotropy, 0.0):
+        return _metal(feed, owner, curve, alpha)
+    return _metal(feed, owner, curve, alpha, sides_of_glossy(alpha, number(anisotropy, owner)))
 
 
 def _metallic(feed: Socket, owner: Owner) -> Surface:
-    if feed.node.fresnel_type != "F82":
-        owner.warn(feed.node, "physical conductors are not supported, it is shown by its base colour and edge tint")
+    alpha, anisotropy = _alpha(feed, owner), feed.input("Anisotropy")
+    alphas = None if is_constant(anisotropy, 0.0) else sides(alpha, number(anisotropy, owner))
+    if feed.node.fresnel_type == "PHYSICAL_CONDUCTOR":
+        n, k = (colour(feed.input(name), owner).at_least(0.0) for name in ("IOR", "Extinction"))
+        return _metal(feed, owner, {"n": n, "k": k}, alpha, alphas or (alpha, alpha), "conductor")
     base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
+    return _metal(feed, owner, f82(base, edge_tint, owner.program.number(1.0)), alpha, alphas)
+
+
+def _metal(
+    feed: Socket,
+    owner: Owner,
+    curve: dict[str, Value],
+    alpha: Value,
+    alphas: tuple[Value, Value] | None = None,
+    kind: str = "anisotropic",
+) -> Surface:
+    """A highlight alone. alphas: GGX alpha along the tangent and across it, if it is one of axes of its own."""
+    turned, multiscatter, white = normal(feed, owner), _multiscatter(feed, owner), owner.program.colour((1, 1, 1))
+    if alphas is None:
+        return Surface.of(owner.program, **curve, alpha=alpha, multiscatter=multiscatter, normal=turned)
     return Surface.of(
         owner.program,
-        alpha=_alpha(feed, owner),
-        conductor_f0=base,
-        conductor_f90=_grazing_reflectance(base, edge_tint, feed, owner),
-        conductor_weight=owner.program.number(1.0),
-        multiscatter=_multiscatter(feed, owner),
-        normal=normal(feed, owner),
+        highlights=(Highlight(kind, tuple(curve.items()), white, *alphas, rotation(feed, owner), multiscatter),),
+        tangent=tangent(feed, owner),
+        normal=turned,
     )
-
-
-def _grazing_reflectance(f0: Value, edge_tint: Value, feed: Socket, owner: Owner) -> Value:
-    """The F90 by which Schlick's curve has the F82-tint model's reflectance at 82 degrees: exact for a white tint."""
-    if not edge_tint.is_always(1):
-        owner.warn(feed.node, "the edge tint of metal is approximated")
-    weight_82 = (1 - 1 / 7) ** 5
-    reflectance_82 = edge_tint * (f0 + (1.0 - f0) * weight_82)
-    return (f0 + (reflectance_82 - f0) / weight_82).at_least(0.0)
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
@@ -210,26 +221,45 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
     glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
     opaque = (1.0 - metallic) * (1.0 - glass)
+    curve = f82(f0, edge_tint, metallic) | {
+        "dielectric_weight": owner.program.number(0.0) if ior.is_always(1) else opaque,
+        "dielectric_ior": ior,
+        "dielectric_tint": tint,
+    }
     whole = Surface.of(
         owner.program,
-        diffuse=base * opaque,
+        **_principled_diffuse(feed, owner, base, opaque, ior, tint),
         alpha=_alpha(feed, owner),
-        conductor_f0=f0 * metallic,
-        conductor_f90=_grazing_reflectance(f0, edge_tint, feed, owner) * metallic,
-        conductor_weight=metallic,
-        dielectric_weight=owner.program.number(0.0) if ior.is_always(1) else opaque,
-        dielectric_ior=ior,
-        dielectric_tint=tint,
+        **curve,
         weight=metallic + opaque,
         dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass),
         multiscatter=_multiscatter(feed, owner),
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
+    whole = coated(brushed(whole, feed, owner), feed, owner)
+    if feed.find_input("Sheen Weight") is not None:
+        whole = cloth.under_sheen(whole, feed, owner)
     opacity = number(feed.input("Alpha"), owner).clamped()
     if opacity.is_always(1):
         return whole
     return added(whole.scaled(opacity), _let_through(1.0 - opacity))[0]
+
+
+def _principled_diffuse(
+    feed: Socket, owner: Owner, base: Value, opaque: Value, ior: Value, tint: Value
+) -> dict[str, Value | tuple[Lobe, ...]]:
+    """What Principled has of a diffuse lobe: before Blender 4.0 Disney's, of which the highlight takes no share."""
+    if feed.find_input("Specular IOR Level") is None:
+        return {} if opaque.is_always(0) else {"lobes": (cloth.disney_diffuse(feed, owner, base, opaque),)}
+    target = feed.find_input("Diffuse Roughness")
+    if opaque.is_always(0) or target is None or is_constant(target, 0.0):
+        return {"diffuse": base * opaque}
+    left = owner.program.number(1.0)
+    if not ior.is_always(1):
+        turned, multiscatter = normal(feed, owner), _multiscatter(feed, owner)
+        left, _ = beneath_dielectric(owner.program, turned, _alpha(feed, owner), ior, tint, multiscatter)
+    return {"lobes": (cloth.rough_diffuse(base * opaque * left, base, number(target, owner).clamped()),)}
 
 
 def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
@@ -274,10 +304,8 @@ def _dielectric(feed: Socket, owner: Owner, base: Value) -> tuple[Value, Value]:
         f0 = ratio * ratio * (2.0 * number(level, owner).at_least(0.0))
         return _ior_from_f0(f0), colour(feed.input("Specular Tint"), owner).at_least(0.0)
     f0 = 0.08 * number(feed.input("Specular"), owner).at_least(0.0)
-    luminance = base[0] * 0.3 + base[1] * 0.6 + base[2] * 0.1
-    white, lit = owner.program.colour((1, 1, 1)), owner.program.each("math_greater_than", luminance, 0.0)
-    hue = owner.program.mixed(lit, white, base / luminance)
-    return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, hue)
+    white = owner.program.colour((1, 1, 1))
+    return _ior_from_f0(f0), owner.program.mixed(number(feed.input("Specular Tint"), owner), white, cloth.hue(base))
 
 
 def _any_ior(feed: Socket, owner: Owner) -> Value:
@@ -329,6 +357,8 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_TRANSLUCENT": _translucent,
+    "BSDF_SHEEN": cloth.sheen,
+    "BSDF_VELVET": cloth.velvet,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 
 from .dielectric import Dielectric, as_few, at_most
+from .highlight import Highlight, hue, share
+from .lobe import Lobe, as_few_lobes
 from .program import Program, Register, Value
 
 _BASE = (
     "diffuse", "alpha", "conductor_f0", "conductor_f90", "conductor_weight", "dielectric_weight", "dielectric_ior",
-    "dielectric_tint", "weight",
+    "dielectric_tint", "weight", "conductor_dip",
 )  # fmt: skip
 
 
@@ -23,14 +25,15 @@ class Surface:
 
     The base is a Lambert lobe beneath one GGX lobe of two Fresnel parts; `weight` is the share of the surface that they
     are. further: surfaces of which the bases are mixed in. translucent: the colour of light that comes through.
-    dielectrics: what of it is glass. transparency: the colour of light that goes straight on; opacity: how much of a
-    surface all else is.
+    dielectrics: what of it is glass. highlights: those about axes of their own. lobes: what it has of other kinds.
+    transparency: the colour of light that goes straight on; opacity: how much of a surface all else is.
     """
 
     diffuse: Value
     alpha: Value
     conductor_f0: Value
     conductor_f90: Value
+    conductor_dip: Value
     conductor_weight: Value
     dielectric_weight: Value
     dielectric_ior: Value
@@ -43,10 +46,12 @@ class Surface:
     multiscatter: bool = False
     further: tuple[Surface, ...] = ()
     dielectrics: tuple[Dielectric, ...] = ()
-    normal: Value | None = None  # of all lobes, world space; None: the mesh's own
+    highlights: tuple[Highlight, ...] = ()
+    lobes: tuple[Lobe, ...] = ()
+    normal: Value | None = None  # of all lobes but highlights that have another, world space; None: the mesh's own
     normal_is_own: bool = False  # it is as displacement would turn the mesh's own
     ndf: Any = None  # pivot_core.TabulatedNdf of all its bases; None: each has its own alpha
-    tangent: Value | None = None  # which way x of the ndf lies, world space
+    tangent: Value | None = None  # which way x of the ndf and of highlights lies, world space
 
     @staticmethod
     def of(program: Program, **given: Any) -> Surface:
@@ -57,6 +62,7 @@ class Surface:
             "alpha": one,
             "conductor_f0": black,
             "conductor_f90": black,
+            "conductor_dip": black,
             "conductor_weight": zero,
             "dielectric_weight": zero,
             "dielectric_ior": program.number(1.5),
@@ -74,20 +80,26 @@ class Surface:
         return self.diffuse.program
 
     def scaled(self, weight: Value) -> Surface:
+        """weight: a number, or a colour, by which a dielectric is scaled at normal incidence, elsewhere by its mean."""
+        part = share(weight)
         return replace(
             self,
             diffuse=self.diffuse * weight,
             conductor_f0=self.conductor_f0 * weight,
             conductor_f90=self.conductor_f90 * weight,
-            conductor_weight=self.conductor_weight * weight,
-            dielectric_weight=self.dielectric_weight * weight,
-            weight=self.weight * weight,
+            conductor_dip=self.conductor_dip * weight,
+            conductor_weight=self.conductor_weight * part,
+            dielectric_weight=self.dielectric_weight * part,
+            dielectric_tint=self.dielectric_tint * hue(weight),
+            weight=self.weight * part,
             emission=self.emission * weight,
             translucent=self.translucent * weight,
             transparency=self.transparency * weight,
-            opacity=self.opacity * weight,
+            opacity=self.opacity * part,
             further=tuple(surface.scaled(weight) for surface in self.further),
             dielectrics=tuple(dielectric.scaled(weight) for dielectric in self.dielectrics),
+            highlights=tuple(highlight.scaled(weight) for highlight in self.highlights),
+            lobes=tuple(lobe.scaled(weight) for lobe in self.lobes),
         )
 
     def gloss(self) -> float:
@@ -100,16 +112,26 @@ class Surface:
         """Those that reflect, each as a surface of nothing else."""
         if not self.diffuse.is_always(0) or self.gloss() > 0:
             black = self.program.colour((0, 0, 0))
-            yield replace(self, emission=black, translucent=black, transparency=black, further=(), dielectrics=())
+            beside = {"further": (), "dielectrics": (), "highlights": (), "lobes": ()}
+            yield replace(self, emission=black, translucent=black, transparency=black, **beside)
         yield from self.further
 
     def within(self, lobes: int) -> tuple[Surface, bool]:
         """The surface with so many lobes beside its base at most, and whether it is the same.
 
-        The highlights of the weakest bases become those of the one before them.
+        The highlights of the weakest bases become those of the one before them, those about axes of their own first
+        lobes of bases, lobes of other kinds Lambert's.
         """
-        bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
         left = lobes - (not self.translucent.is_always(0))
+        most = left - bool(self.dielectrics) - bool(self.highlights)
+        if len(self.lobes) > most:
+            diffuse = sum((lobe.as_diffuse() for lobe in self.lobes[most:]), self.diffuse)
+            return replace(self, diffuse=diffuse, lobes=self.lobes[:most]).within(lobes)[0], False
+        left -= len(self.lobes)
+        if self.highlights and len(self.dielectrics) + len(self.highlights) > left:
+            return self.without_axes(self.highlights[-1]).within(lobes)[0], False
+        bases = sorted(self.bases(), key=Surface.gloss, reverse=True)
+        left -= len(self.highlights)
         if len(self.dielectrics) > left:
             return replace(self, dielectrics=at_most(self.dielectrics, left)).within(lobes)[0], False
         most = 1 + left - len(self.dielectrics)
@@ -120,6 +142,14 @@ class Surface:
             last = _as_one(last, weaker)
         return _surface_of([*bases[: most - 1], last], self), False
 
+    def without_axes(self, *highlights: Highlight) -> Surface:
+        """The surface with some of its highlights as those of bases."""
+        if not highlights:
+            return self
+        bases = [Surface.of(self.program, **highlight.base()) for highlight in highlights]
+        rest = tuple(highlight for highlight in self.highlights if highlight not in highlights)
+        return _surface_of([*self.bases(), *bases], replace(self, highlights=rest))
+
     def core_shader(self, core: Any) -> Any:
         """A pivot_core.Material, or a Shader where something varies over the surface."""
         first, beside, kind, table = self, self.further, "base", {}
@@ -128,7 +158,7 @@ class Surface:
         lobes = [(kind, surface._base_values(), surface._base_settings() | table) for surface in beside]
         if not self.translucent.is_always(0):
             lobes.append(("translucent", {"color": self.translucent}, {}))
-        lobes += [dielectric.lobe() for dielectric in self.dielectrics]
+        lobes += [part.lobe() for part in (*self.dielectrics, *self.highlights, *self.lobes)]
         own = first._base_values() | {"emission": self.emission}
         if not self.transparency.is_always(0):
             own |= {"transparency": self.transparency, "opacity": self.opacity}
@@ -149,7 +179,8 @@ class Surface:
 
     def _is_light_alone(self) -> bool:
         """Whether nothing of it is turned by a normal."""
-        return self.translucent.is_always(0) and not self.dielectrics and not list(self.bases())
+        beside = self.dielectrics or self.highlights or self.lobes
+        return self.translucent.is_always(0) and not beside and not list(self.bases())
 
     def _base_values(self) -> dict[str, Value]:
         return {name: getattr(self, name) for name in _BASE}
@@ -176,7 +207,7 @@ def _registers(value: Value) -> list[int]:
 
 
 def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
-    """The sum of two, and whether it is exact: two normals become the first.
+    """The sum of two, and whether it is exact: two normals become the first, and two tangents.
 
     Bases of which the GGX lobes differ stay beside each other.
     """
@@ -189,16 +220,21 @@ def added(a: Surface, b: Surface) -> tuple[Surface, bool]:
             bases[place] = _as_one(bases[place], base)
     reflecting = [surface for surface in (a, b) if not surface._is_light_alone()]
     normals = [surface.normal for surface in reflecting]
+    tangents = [surface.tangent for surface in (a, b) if surface.tangent is not None]
     beside = Surface.of(
         a.program,
         emission=a.emission + b.emission,
         translucent=a.translucent + b.translucent,
         dielectrics=as_few(a.dielectrics + b.dielectrics),
+        highlights=a.highlights + b.highlights,
+        lobes=as_few_lobes(a.lobes + b.lobes),
         transparency=a.transparency + b.transparency,
         opacity=a.opacity + b.opacity,
         normal=next((normal for normal in normals if normal is not None), None),
+        tangent=next(iter(tangents), None),
     )
-    return _surface_of(bases, beside), len(normals) < 2 or normals[0] == normals[1]
+    exact = (len(normals) < 2 or normals[0] == normals[1]) and (len(tangents) < 2 or tangents[0] == tangents[1])
+    return _surface_of(bases, beside), exact
 
 
 def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
@@ -211,8 +247,12 @@ def _surface_of(bases: list[Surface], beside: Surface) -> Surface:
         transparency=beside.transparency,
         opacity=beside.opacity,
         normal=beside.normal,
+        normal_is_own=beside.normal_is_own,
+        tangent=beside.tangent,
         further=tuple(further),
         dielectrics=beside.dielectrics,
+        highlights=beside.highlights,
+        lobes=beside.lobes,
     )
 
 
@@ -242,6 +282,7 @@ def _as_one(a: Surface, b: Surface) -> Surface:
         alpha=strong.alpha,
         conductor_f0=a.conductor_f0 + b.conductor_f0,
         conductor_f90=a.conductor_f90 + b.conductor_f90,
+        conductor_dip=a.conductor_dip + b.conductor_dip,
         conductor_weight=a.conductor_weight + b.conductor_weight,
         dielectric_weight=a.dielectric_weight + b.dielectric_weight,
         dielectric_ior=dense.dielectric_ior,

@@ -9,6 +9,8 @@ from .census import report_left_out
 from .context import Context
 from .media import core_medium, report_analytic
 from .nodes import Owner, active_tree
+from .nodes.ray import CAMERA_RAY
+from .nodes.skies import sun_light
 from .program import Program
 from .shader import light_emission
 from .surface import Surface
@@ -32,17 +34,38 @@ def export_world(context: Context) -> bool:
         radiance = light_emission(tree, Owner(owner, context.reporter, program, world))
     shines = not radiance.is_always(0)
     if tree is not None:
+        _add_suns(context, tree, owner)
         _set_medium(context, tree, owner, world, shines)
+    varies = not radiance.is_constant
+    visibility = getattr(world, "cycles_visibility", None)
+    if visibility is not None and not visibility.camera:
+        radiance = radiance * (1.0 - program.op("ray_is", settings=[CAMERA_RAY]))
     with naming(owner, "give its colour and strength finite values"):
         if radiance.is_constant:
             context.scene.set_world(radiance=radiance.numbers)
         else:
-            if context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
+            if varies and context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
                 context.reporter.warn(
                     f"{owner}: in the analytic integrator it lights by its mean. Fix: use Monte Carlo"
                 )
             context.scene.set_world_shader(Surface.of(program, emission=radiance).core_shader(context.core))
     return shines
+
+
+def _add_suns(context: Context, tree: bpy.types.NodeTree, owner: str) -> None:
+    """Lamps for the suns of skies: a map of the world would lose them between its places."""
+    for node in tree.nodes:
+        sun = sun_light(context.core, node) if node.type == "TEX_SKY" and not node.mute else None
+        if sun is None:
+            continue
+        direction, half_angle_rad, irradiance = sun
+        background = node.outputs["Color"].links[0].to_node
+        irradiance = irradiance * background.inputs["Strength"].default_value
+        with naming(owner, "give its sky finite values"):
+            light = context.core.SunLight(
+                direction=direction, half_angle_rad=half_angle_rad, irradiance=irradiance.tolist()
+            )
+            context.scene.add_light(owner, light)
 
 
 def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World, shines: bool) -> None:

@@ -17,17 +17,29 @@ __all__: list[str] = [
     "shading",
     "tables",
     "AreaLight",
+    "CentralCylindrical",
+    "CubeMapFace",
+    "Equirectangular",
+    "FisheyeEquidistant",
+    "FisheyeEquisolid",
+    "FisheyePolynomial",
     "Image",
     "LOBES",
     "LOBES_WITH_NDF",
+    "Lens",
     "MAX_LOBES",
     "Material",
     "Medium",
+    "Mesh",
+    "MirrorBall",
+    "Orthographic",
+    "Perspective",
     "Program",
     "RenderSettings",
     "Scene",
     "Session",
     "Shader",
+    "SharedMeshes",
     "SphereLight",
     "SpotLight",
     "SunLight",
@@ -207,7 +219,7 @@ class Material:
     """
     A Lambert lobe beneath one GGX lobe, further lobes, and emission; colours are linear RGB.
 
-    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; opacity: how much of the surface there is beside, which tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of 1.
+    The lobe's Fresnel is a Schlick curve from conductor_f0 to conductor_f90, less conductor_dip times the weight of F82, cos (1 - cos)^6, in which conductor_weight is multiplied, plus, times dielectric_weight, the curve of a dielectric of dielectric_ior whose reflectance at normal incidence is scaled by dielectric_tint. alpha must be in [0, 1], dielectric_ior at least 1. weight: the share of the surface that these are, multiplied into them. transparency: the colour of light that goes straight on; opacity: how much of the surface there is beside, which tells paths how often to pass and is multiplied into all else already; None: what transparency leaves of 1.
 
     lobes: up to MAX_LOBES beside these, each a kind and its parameters, as LOBES names them; what is not given is as here, or 1.
     """
@@ -253,6 +265,9 @@ class Material:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [0.0, 0.0, 0.0],
         opacity: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        conductor_dip: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
     ) -> None: ...
     def albedo(
         self,
@@ -372,6 +387,103 @@ class Shader:
         varying: by the name of Material's argument, the register of each number, -1 for one that is constant; 'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's own; 'tangent': which way x lies of pictures of microfacets, world space.
         """
 
+class Perspective:
+    """
+    Places are those of the plane at z = -1 in camera space.
+    """
+    def __init__(self) -> None: ...
+
+class Orthographic:
+    """
+    Places are x and y of camera space, in m.
+    """
+    def __init__(self) -> None: ...
+
+class Equirectangular:
+    """
+    Longitude, to the right of the camera's axis, and latitude (from, to) over the unit square, in radians.
+    """
+    def __init__(
+        self,
+        longitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+        latitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class CentralCylindrical:
+    """
+    Longitude in radians, and height over the radius (from, to) over the unit square.
+    """
+    def __init__(
+        self,
+        longitude: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+        height: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"],
+    ) -> None: ...
+
+class FisheyeEquidistant:
+    """
+    The angle from the axis, even over the disk in the unit square.
+    """
+    def __init__(self, fov_rad: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class FisheyeEquisolid:
+    """
+    Solid angle around the axis, even over a sensor (width, height).
+    """
+    def __init__(
+        self,
+        lens_mm: typing.SupportsFloat | typing.SupportsIndex,
+        fov_rad: typing.SupportsFloat | typing.SupportsIndex,
+        sensor_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class FisheyePolynomial:
+    """
+    The angle from the axis, its sign turned, as a polynomial of the radius on a sensor (width, height): radians per mm^k.
+    """
+    def __init__(
+        self,
+        coefficients: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(5)"
+        ],
+        fov_rad: typing.SupportsFloat | typing.SupportsIndex,
+        sensor_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ],
+    ) -> None: ...
+
+class CubeMapFace:
+    """
+    A quarter turn each way, even in both angles.
+    """
+    def __init__(self) -> None: ...
+
+class MirrorBall:
+    """
+    What a ball of mirror shows from afar.
+    """
+    def __init__(self) -> None: ...
+
+class Lens:
+    """
+    A thin lens in focus at a distance; blades: sides of its stop, below 3 it is round; ratio: how much narrower it is along x.
+    """
+    def __init__(
+        self,
+        radius_m: typing.SupportsFloat | typing.SupportsIndex,
+        focus_m: typing.SupportsFloat | typing.SupportsIndex,
+        blades: typing.SupportsInt | typing.SupportsIndex = 0,
+        rotation_rad: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+
 class SphereLight:
     """
     A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk turned to each point it lights instead, Blender's soft falloff.
@@ -427,7 +539,7 @@ class SunLight:
 
 class AreaLight:
     """
-    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance.
+    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less than pi.
     """
     def __init__(
         self,
@@ -438,20 +550,42 @@ class AreaLight:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
         ellipse: bool = False,
+        spread_rad: typing.SupportsFloat | typing.SupportsIndex = 3.1415927410125732,
     ) -> None: ...
+
+class Mesh:
+    """
+    A scene's mesh, for scenes to come.
+    """
+
+class SharedMeshes:
+    """
+    What scenes share that are made one after the other: meshes and their BVHs.
+    """
+    def __init__(self) -> None: ...
 
 class Scene:
     """
     Meshes, instances, materials, lights, world and camera, edited by id. Metres; world space is z up.
     """
+    @typing.overload
     def __init__(self) -> None: ...
+    @typing.overload
+    def __init__(self, shared: SharedMeshes) -> None:
+        """
+        One of several that take meshes from each other.
+        """
     def add_instances(
         self,
         name: str,
         mesh: typing.SupportsInt | typing.SupportsIndex,
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         materials: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        camera_visible: bool = True,
+        hidden_from: collections.abc.Sequence[str] = [],
+        holdout: bool = False,
+        matte: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ] = [0.0, 0.0],
         color: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
         ] = [1.0, 1.0, 1.0, 1.0],
@@ -465,10 +599,27 @@ class Scene:
         ] = {},
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
         """
-    def add_light(self, name: str, light: SphereLight | SpotLight | SunLight | AreaLight) -> int: ...
-    def add_material(self, name: str, material: Shader, medium: Medium | None = None, has_surface: bool = True) -> int:
+    def add_light(
+        self,
+        name: str,
+        light: SphereLight | SpotLight | SunLight | AreaLight,
+        hidden_from: collections.abc.Sequence[str] = [],
+        max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> int:
+        """
+        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.
+        """
+    def add_material(
+        self,
+        name: str,
+        material: Shader,
+        medium: Medium | None = None,
+        has_surface: bool = True,
+        pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        matte: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> int:
         """
         A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
         """
@@ -486,6 +637,10 @@ class Scene:
     ) -> int:
         """
         positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals (V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and (C, 1..4): what shaders read. Returns the mesh's id.
+        """
+    def add_shared_mesh(self, mesh: Mesh) -> int:
+        """
+        A mesh of another scene that was made with the same SharedMeshes. Returns its id in this one.
         """
     def attribute_id(self, name: str) -> int:
         """
@@ -552,6 +707,7 @@ class Scene:
         """
         Its nodes, the root first, each as (child (n,): a node, or ~light; mean (n, 3), the place, of suns the direction; variance_m2 (n,) of places about it, across any line of sight; bound_m (n,), how far parts are from it at most; intensity (n,) in W/sr towards any side at most, the mean over colours; axis (n, 3), where it shines most, or 0; sharpness (n,) of that Gaussian).
         """
+    def mesh(self, id: typing.SupportsInt | typing.SupportsIndex) -> Mesh: ...
     def occluded(
         self,
         origins: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
@@ -601,9 +757,20 @@ class Scene:
         | None = None,
         clip_start_m: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         clip_end_m: typing.SupportsFloat | typing.SupportsIndex = ...,
+        projection: Perspective
+        | Orthographic
+        | Equirectangular
+        | CentralCylindrical
+        | FisheyeEquidistant
+        | FisheyeEquisolid
+        | FisheyePolynomial
+        | CubeMapFace
+        | MirrorBall
+        | None = None,
+        lens: Lens | None = None,
     ) -> None:
         """
-        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame at z = -1. window: (x0, y0, x1, y1), the pixels to render, from the bottom left.
+        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.
         """
     def set_instance_materials(
         self,
@@ -618,9 +785,15 @@ class Scene:
         id: typing.SupportsInt | typing.SupportsIndex,
         object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     ) -> None: ...
-    def set_instance_visibility(self, id: typing.SupportsInt | typing.SupportsIndex, camera_visible: bool) -> None: ...
+    def set_instance_visibility(
+        self, id: typing.SupportsInt | typing.SupportsIndex, hidden_from: collections.abc.Sequence[str]
+    ) -> None: ...
     def set_light(
-        self, id: typing.SupportsInt | typing.SupportsIndex, light: SphereLight | SpotLight | SunLight | AreaLight
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        light: SphereLight | SpotLight | SunLight | AreaLight,
+        hidden_from: collections.abc.Sequence[str] = [],
+        max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
     ) -> None: ...
     def set_material(
         self,
@@ -673,6 +846,12 @@ class RenderSettings:
         denoising_passes: bool = False,
         max_passages: typing.SupportsInt | typing.SupportsIndex = 8,
         max_path_passages: typing.SupportsInt | typing.SupportsIndex = 9,
+        surface_passes: bool = False,
+        uv_attribute: typing.SupportsInt | typing.SupportsIndex = -1,
+        mist: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [5.0, 25.0, 2.0],
+        mattes: bool = False,
     ) -> None: ...
 
 class Session:
@@ -680,14 +859,22 @@ class Session:
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
     """
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool = False) -> int:
+    def bytes_per_pixel(
+        adaptive: bool, denoising_passes: bool = False, surface_passes: bool = False, mattes: bool = False
+    ) -> int:
         """
         What a session allocates for each pixel of its window.
         """
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
+        """
+    def read_mattes(
+        self, kind: str, rank: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this rank on, the largest share first.
         """
     def start(self) -> None:
         """
@@ -724,6 +911,11 @@ class Session:
         Samples complete over the whole window; under adaptive sampling, of those pixels that take as many.
         """
     @property
+    def sampling_s(self) -> float:
+        """
+        Since the scene was ready for rays, until the render has ended.
+        """
+    @property
     def virtual_lights(self) -> tuple[int, int, float]:
         """
         How many virtual lights there are, the photons that they are made of, and the seconds that took; once samples are done.
@@ -758,6 +950,7 @@ LOBES: dict = {
         "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
     },
     "translucent": {"color": (3, 0.0, 3.4028234663852886e38)},
     "tabulated": {
@@ -771,6 +964,7 @@ LOBES: dict = {
         "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
     },
     "dielectric": {
         "reflection": (3, 0.0, 3.4028234663852886e38),
@@ -782,6 +976,44 @@ LOBES: dict = {
         "multiscatter": (1, 0.0, 1.0),
         "weight": (1, 0.0, 3.4028234663852886e38),
     },
+    "anisotropic": {
+        "conductor_f0": (3, 0.0, 3.4028234663852886e38),
+        "conductor_f90": (3, 0.0, 3.4028234663852886e38),
+        "conductor_dip": (3, 0.0, 3.4028234663852886e38),
+        "conductor_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_weight": (1, 0.0, 3.4028234663852886e38),
+        "dielectric_ior": (1, 1.0, 3.4028234663852886e38),
+        "dielectric_tint": (3, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+    },
+    "conductor": {
+        "n": (3, 0.0, 3.4028234663852886e38),
+        "k": (3, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+    },
+    "oren_nayar": {
+        "weight": (3, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "roughness": (1, 0.0, 1.0),
+        "keeps_energy": (1, 0.0, 1.0),
+    },
+    "disney_diffuse": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "roughness": (1, 0.0, 1.0),
+        "sheen": (3, 0.0, 3.4028234663852886e38),
+    },
+    "sheen": {"color": (3, 0.0, 3.4028234663852886e38), "roughness": (1, 0.0, 1.0)},
+    "velvet": {"color": (3, 0.0, 3.4028234663852886e38), "sigma": (1, 0.0, 1.0)},
 }
 LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3

@@ -6,9 +6,7 @@
 namespace pivot {
 namespace {
 
-/// Hemispherical mean of Schlick's weight, and of the dielectric curve (fit of [KullaConty17], ior in 1..3).
-constexpr float schlick_mean_weight = 1.0f / 21.0f;
-
+/// Hemispherical mean of the dielectric curve (fit of [KullaConty17], ior in 1..3).
 template <class T>
 T dielectric_mean(T ior) {
     return (ior - T(1)) / (T(4.08567f) + T(1.00071f) * ior);
@@ -19,8 +17,8 @@ T dielectric_mean(T ior) {
 template <class T>
 Vec3<T> mean_fresnel(const BaseOf<T>& base, T dielectric_share) {
     const LobeFresnelOf<T>& f = base.fresnel;
-    return f.schlick_f0 + (f.schlick_f90 - f.schlick_f0) * schlick_weight(base.wo_local.z) + f.dielectric_f0 +
-           (f.dielectric_f90 - f.dielectric_f0) * dielectric_share;
+    const T cosine = base.wo_local.z;
+    return f.of_sums(T(1), schlick_weight(cosine), f82_weight(cosine), dielectric_share);
 }
 
 template <class T>
@@ -60,12 +58,15 @@ BaseOf<T> make_base(const BaseMaterialOf<T>& material, const Vec3<T>& wo_local, 
     };
     fresnel.schlick_f0 = material.conductor_f0;
     fresnel.schlick_f90 = material.conductor_f90;
+    fresnel.conductor_dip = material.conductor_dip;
     if (any(multiscatter && material.has_conductor())) {
-        const Vec3<T> mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * T(schlick_mean_weight);
+        const Vec3<T> mean = fresnel.schlick_f0 + (fresnel.schlick_f90 - fresnel.schlick_f0) * T(schlick_mean_weight) -
+                             fresnel.conductor_dip * T(f82_mean_weight);
         // The two Fresnel parts are weighted shares of one surface: each part's own mean is over its own weight.
         const Vec3<T> scale = energy_scale(min(mean / max(material.conductor_weight, T(1e-6f)), white));
         fresnel.schlick_f0 *= scale;
         fresnel.schlick_f90 *= scale;
+        fresnel.conductor_dip *= scale;
     }
     const Mask<T> has_dielectric = material.dielectric_weight > zero && material.dielectric_ior > one;
     T share = zero;

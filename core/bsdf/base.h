@@ -27,25 +27,36 @@ struct BaseMaterialOf {
     Vec3<T> dielectric_tint{T(1)};  ///< scales the reflectance at normal incidence
     T multiscatter = T(0);          ///< 1: give back what single scattering loses between microfacets; 0: do not
     T weight = T(1);                ///< the share of the surface that is this base, multiplied into all of the above
+    Vec3<T> conductor_dip{T(0)};    ///< what F82 takes off Schlick's curve, over f82_weight
 
     Mask<T> has_conductor() const { return max(max_component(conductor_f0), max_component(conductor_f90)) > T(0); }
     Mask<T> has_glossy() const { return dielectric_weight > T(0) || has_conductor(); }
 };
 
-/// Fresnel of the GGX lobe: F(c) = schlick(c) + dielectric(c), scales multiplied in.
+/// Fresnel of the GGX lobe: F(c) = schlick(c) - dip f82(c) + dielectric(c), scales multiplied in.
 template <class T>
 struct LobeFresnelOf {
     Vec3<T> schlick_f0, schlick_f90;
     Vec3<T> dielectric_f0, dielectric_f90;
     T ior;
+    Vec3<T> conductor_dip{T(0)};
 
     Mask<T> has_dielectric() const { return max_component(dielectric_f90) > T(0); }
+    Mask<T> has_dip() const { return max_component(conductor_dip) > T(0); }
 
     Vec3<T> at(T cos_theta) const {
         Vec3<T> f = schlick_f0 + (schlick_f90 - schlick_f0) * schlick_weight(cos_theta);
+        if (any(has_dip())) f = max(f - conductor_dip * f82_weight(cos_theta), Vec3<T>(T(0)));
         if (any(has_dielectric()))
             f += dielectric_f0 + (dielectric_f90 - dielectric_f0) * fresnel_dielectric_weight(cos_theta, ior);
         return f;
+    }
+
+    /// The lobe over something, of what that is for F = 1 and under the curves' weights.
+    Vec3<T> of_sums(T plain, T schlick, T f82, T dielectric) const {
+        Vec3<T> f = schlick_f0 * plain + (schlick_f90 - schlick_f0) * schlick;
+        if (any(has_dip())) f = max(f - conductor_dip * f82, Vec3<T>(T(0)));
+        return f + dielectric_f0 * plain + (dielectric_f90 - dielectric_f0) * dielectric;
     }
 };
 

@@ -1,6 +1,8 @@
-// Fresnel reflectance: Schlick's curve between two colours for conductors, the exact curve for dielectrics.
+// Fresnel reflectance: for conductors Schlick's curve between two colours, what F82 takes off it towards grazing
+// incidence, and the curve of an index of refraction; for dielectrics the exact curve.
 //
 // [Schlick94]  An Inexpensive BRDF Model for Physically-based Rendering
+// [Kutz21]     Novel Aspects of the Adobe Standard Material
 #pragma once
 
 #include "core/math/vector.h"
@@ -12,6 +14,30 @@ template <class T>
 T schlick_weight(T cos_theta) {
     const T m = clamp01(T(1) - cos_theta);
     return sqr(sqr(m)) * m;
+}
+
+/// cos (1 - cos)^6, the weight of what F82 takes off Schlick's curve [Kutz21].
+template <class T>
+T f82_weight(T cos_theta) {
+    const T c = clamp01(cos_theta);
+    return c * (T(1) - c) * schlick_weight(c);
+}
+
+/// Where F82 is given: at about 82 degrees.
+inline constexpr float f82_cosine = 1.0f / 7.0f;
+
+/// Hemispherical means, 2 int w(c) c dc, of the weights of Schlick and of F82.
+inline constexpr float schlick_mean_weight = 1.0f / 21.0f;
+inline constexpr float f82_mean_weight = 1.0f / 126.0f;
+
+/// Unpolarised reflectance of a conductor of index n + i k. [Cycles 4.5 closure/bsdf_util.h, fresnel_conductor]
+template <class T>
+Vec3<T> fresnel_conductor(T cos_theta, const Vec3<T>& n, const Vec3<T>& k) {
+    const T c = clamp01(cos_theta), c2 = sqr(c);
+    const Vec3<T> one(T(1)), size2 = n * n + k * k, twice = T(2) * c * n;
+    const Vec3<T> p = (size2 * c2 - twice + one) / (size2 * c2 + twice + one);
+    const Vec3<T> s = (size2 - twice + Vec3<T>(c2)) / (size2 + twice + Vec3<T>(max(c2, tiny<T>)));
+    return T(0.5f) * (p + s);
 }
 
 /// Reflectance of a dielectric at normal incidence.

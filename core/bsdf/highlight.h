@@ -30,6 +30,8 @@ class Highlights {
     const Highlight* begin() const { return highlights_.data(); }
     const Highlight* end() const { return highlights_.data() + count_; }
 
+    bool is_empty() const { return count_ == 0; }
+
     /// The only one, if it is like a base's: about the surface's normal, and as rough along x as along y.
     bool is_one_of_a_base() const {
         if (count_ != 1) return false;

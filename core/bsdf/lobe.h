@@ -7,16 +7,22 @@
 #include <utility>
 
 #include "core/bsdf/highlight.h"
+#include "core/bsdf/lobes/anisotropic_ggx.h"
 #include "core/bsdf/lobes/dielectric.h"
+#include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/oren_nayar.h"
+#include "core/bsdf/lobes/sheen.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
+#include "core/bsdf/lobes/velvet.h"
 #include "core/bsdf/material.h"
 
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>>;
+using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
+                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
@@ -24,9 +30,17 @@ concept HasTable = requires {
     typename L::Table;
 };
 
+/// A lobe about as even as Lambert's, which bumps light as they do that, and which light samples find with it.
+template <class L>
+concept DiffuseLobe = requires {
+    requires L::is_diffuse;
+};
+
 /// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
 /// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light; and its Parameters turn_over(mask), which makes them those of the surface's back.
+/// what is no diffuse light; and eval_diffuse(wo, wi), the part of eval() that is; its Parameters turn_over(mask),
+/// which makes them those of the surface's back, and turn_normals(local_of, mask), which takes normals of theirs out of
+/// world space; and is_diffuse, see DiffuseLobe.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
@@ -93,6 +107,23 @@ void turn_over(MaterialOf<T>& material, const Mask<T>& is_behind) {
                 if (!any(is_kind && is_behind)) return;
                 auto parameters = record.template read<typename L::Parameters>(is_kind);
                 parameters.turn_over(is_behind);
+                record.write(parameters, is_kind);
+            }
+        });
+    }
+}
+
+/// The material with the normals of its lobes, which are in world space, as local_of(normal) has them.
+template <class T, class LocalOf>
+void turn_normals(MaterialOf<T>& material, const LocalOf& local_of) {
+    for (LobeOf<T>& record : material.lobes) {
+        if (!any(record.kind > T(0))) return;
+        for_each_lobe_kind<T>([&]<class L>(T kind) {
+            if constexpr (requires(typename L::Parameters p) { p.turn_normals(local_of, kind == kind); }) {
+                const Mask<T> is_kind = record.kind == kind;
+                if (!any(is_kind)) return;
+                auto parameters = record.template read<typename L::Parameters>(is_kind);
+                parameters.turn_normals(local_of, is_kind);
                 record.write(parameters, is_kind);
             }
         });

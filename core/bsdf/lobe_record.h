@@ -2,6 +2,7 @@
 // different lobes are of one size and pack into lanes. core/bsdf/lobe.h has the list of kinds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string_view>
@@ -82,5 +83,15 @@ struct LobeParameter {
     std::size_t count;
     float low, high;
 };
+
+/// One list after the other.
+template <std::size_t m, std::size_t n>
+constexpr std::array<LobeParameter, m + n> joined(const std::array<LobeParameter, m>& a,
+                                                  const std::array<LobeParameter, n>& b) {
+    std::array<LobeParameter, m + n> both{};
+    std::copy(a.begin(), a.end(), both.begin());
+    std::copy(b.begin(), b.end(), both.begin() + m);
+    return both;
+}
 
 }  // namespace pivot

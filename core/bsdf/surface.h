@@ -53,14 +53,28 @@ SurfaceOf<T> blurred(const SurfaceOf<T>& surface, T least_alpha) {
     return result;
 }
 
+/// What eval() has of diffuse lobes beside the base.
+template <class T>
+Vec3<T> eval_diffuse_lobes(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
+    Vec3<T> value(T(0));
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (DiffuseLobe<L>) {
+            Vec3<T> of_lobe = lobe.eval(surface.wo_local, wi_local);
+            if (any(surface.bump.is_turned())) of_lobe *= surface.bump.cosine(wi_local) / max(wi_local.z, T(1e-3f));
+            value += select(is_kind, of_lobe, Vec3<T>(T(0)));
+        }
+    });
+    return value;
+}
+
 /// BSDF times |cos|, 1/sr.
 template <class T>
 Vec3<T> eval(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
     Vec3<T> value = eval_base(surface, wi_local);
-    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
-        value += select(is_kind, lobe.eval(surface.wo_local, wi_local), Vec3<T>(T(0)));
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (!DiffuseLobe<L>) value += select(is_kind, lobe.eval(surface.wo_local, wi_local), Vec3<T>(T(0)));
     });
-    return value;
+    return value + eval_diffuse_lobes(surface, wi_local);
 }
 
 /// Density of sample(), all lobes.
@@ -112,6 +126,16 @@ Mask<T> samples_highlight(const SurfaceOf<T>& surface, T u_lobe) {
     return result || (left >= T(0) && left < max(rest, T(0)) * surface.glossy_probability);
 }
 
+/// Whether its lobes are the base's, or are found with the base's diffuse one.
+template <class T>
+Mask<T> is_like_base(const SurfaceOf<T>& surface) {
+    Mask<T> result = T(0) >= T(0);
+    for_each_lobe(surface, [&]<class L>(const L&, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (!DiffuseLobe<L>) result = result && !is_kind;
+    });
+    return result;
+}
+
 /// What light samples may follow of the lobes beside the base.
 inline Highlights highlights_of(const Surface& surface) {
     Highlights highlights;
@@ -146,7 +170,7 @@ Vec3<T> denoising_albedo(const SurfaceOf<T>& surface) {
     return min(albedo, Vec3<T>(T(1)));
 }
 
-/// Means over colours of what the lobes beside the base send to the viewer where all light around is 1, by the side
+/// Means over colours of what the lobes unlike a base's send to the viewer where all light around is 1, by the side
 /// that it comes from.
 template <class T>
 struct LobeAlbedoOf {
@@ -156,9 +180,11 @@ template <class T>
 LobeAlbedoOf<T> lobe_albedo(const SurfaceOf<T>& surface) {
     LobeAlbedoOf<T> albedo{T(0), T(0)};
     for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
-        const T mean = select(is_kind, mean_component(lobe.albedo(surface.wo_local)), T(0));
-        if constexpr (L::reflects) albedo.above += mean;
-        if constexpr (L::transmits) albedo.below += mean;
+        if constexpr (!DiffuseLobe<L>) {
+            const T mean = select(is_kind, mean_component(lobe.albedo(surface.wo_local)), T(0));
+            if constexpr (L::reflects) albedo.above += mean;
+            if constexpr (L::transmits) albedo.below += mean;
+        }
     });
     return albedo;
 }

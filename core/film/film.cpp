@@ -9,9 +9,10 @@
 namespace pivot {
 namespace {
 
-/// Sums, number by number.
-void add_weighted(std::span<const Sample> samples, std::span<const float> weights, float scale, Sample& sum) {
-    constexpr std::size_t numbers = sizeof(Sample) / sizeof(float);
+/// Sums of structs of floats, number by number.
+template <class Numbers>
+void add_weighted(std::span<const Numbers> samples, std::span<const float> weights, float scale, Numbers& sum) {
+    constexpr std::size_t numbers = sizeof(Numbers) / sizeof(float);
     constexpr std::size_t together = numbers / batch_size * batch_size;
     for (std::size_t first = 0; first < together; first += batch_size) {
         Batch added(0.0f);
@@ -30,28 +31,45 @@ void add_weighted(std::span<const Sample> samples, std::span<const float> weight
 
 void put(const Vec3f& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
-void write_combined(const Pixel& pixel, const OwnSum&, float* out) {
+void write_combined(const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) {
     put(pixel.samples.sum.radiance * pixel.samples.per_weight(), out);
     out[3] = pixel.samples.sum.alpha * pixel.samples.per_weight();
 }
 
 /// A sum of three channels as its mean.
 template <Vec3f Sample::*sum>
-void write_mean(const Pixel& pixel, const OwnSum&, float* out) {
+void write_mean(const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) {
     put(pixel.samples.sum.*sum * pixel.samples.per_weight(), out);
 }
 
 template <Vec3f OwnSum::*sum>
-void write_own(const Pixel&, const OwnSum& own, float* out) {
+void write_own(const Pixel&, const OwnSum& own, const SurfacePixel&, float* out) {
     put(own.*sum * own.per_weight(), out);
 }
 
-void write_noisy(const Pixel& pixel, const OwnSum& own, float* out) {
+void write_noisy(const Pixel& pixel, const OwnSum& own, const SurfacePixel&, float* out) {
     put(own.radiance * own.per_weight(), out);
     out[3] = pixel.samples.sum.alpha * pixel.samples.per_weight();
 }
 
-void write_depth(const Pixel& pixel, const OwnSum&, float* out) { *out = pixel.center.depth_m; }
+/// A sum over surfaces as its mean.
+template <Vec3f SurfacePasses::*sum>
+void write_surfaces(const Pixel& pixel, const OwnSum&, const SurfacePixel& surfaces, float* out) {
+    put(surfaces.sum.*sum * pixel.samples.per_weight(), out);
+}
+
+/// Light over the colour that reflected it, which it is to be multiplied by again; 0 where that has none.
+template <Vec3f SurfacePasses::*light, Vec3f SurfacePasses::*color>
+void write_uncolored(const Pixel&, const OwnSum&, const SurfacePixel& surfaces, float* out) {
+    const Vec3f &l = surfaces.sum.*light, &c = surfaces.sum.*color;
+    for (int i = 0; i < 3; ++i) out[i] = c[i] != 0.0f ? l[i] / c[i] : 0.0f;
+}
+
+void write_mist(const Pixel& pixel, const OwnSum&, const SurfacePixel& surfaces, float* out) {
+    *out = std::clamp(1.0f - surfaces.sum.nearness * pixel.samples.per_weight(), 0.0f, 1.0f);
+}
+
+void write_depth(const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) { *out = pixel.center.depth_m; }
 
 /// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
 /// the closed forms, and that of evenly spread samples whose values differ, by shadows and edges in the pixel.
@@ -69,23 +87,64 @@ float predicted_error(const Pixel& pixel) {
     return error / std::max(std::abs(mean), least_radiance);
 }
 
+constexpr FilmParts own_sums{.own_sums = true}, surface_passes{.surface_passes = true};
+using S = SurfacePasses;
+
 constexpr Pass passes[] = {
     {"Combined", 4, write_combined},
     {"Depth", 1, write_depth},
     {"Normal", 3, write_mean<&Sample::normal>},
-    {"Position", 3, [](const Pixel& pixel, const OwnSum&, float* out) { put(pixel.center.position, out); }},
+    {"Position", 3,
+     [](const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) { put(pixel.center.position, out); }},
     {"DiffCol", 3, write_mean<&Sample::albedo>},
     {"Emit", 3, write_mean<&Sample::emission>},
     {"VolumeDir", 3, write_mean<&Sample::volume_direct>},
     {"VolumeInd", 3, write_mean<&Sample::volume_indirect>},
     {"Indirect", 3, write_mean<&Sample::indirect>},
     {"Method", 3, write_mean<&Sample::method>},
-    {"Error", 1, [](const Pixel& pixel, const OwnSum&, float* out) { *out = predicted_error(pixel); }},
-    {"Noisy Image", 4, write_noisy, true},
-    {"Noisy Indirect", 3, write_own<&OwnSum::indirect>, true},
-    {"Denoising Albedo", 3, write_own<&OwnSum::albedo>, true},
-    {"Denoising Normal", 3, write_own<&OwnSum::normal>, true},
+    {"Error", 1,
+     [](const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) { *out = predicted_error(pixel); }},
+    {"Noisy Image", 4, write_noisy, own_sums},
+    {"Noisy Indirect", 3, write_own<&OwnSum::indirect>, own_sums},
+    {"Denoising Albedo", 3, write_own<&OwnSum::albedo>, own_sums},
+    {"Denoising Normal", 3, write_own<&OwnSum::normal>, own_sums},
+    {"DiffDir", 3, write_uncolored<&S::diffuse_direct, &S::diffuse_color>, surface_passes},
+    {"DiffInd", 3, write_uncolored<&S::diffuse_indirect, &S::diffuse_color>, surface_passes},
+    {"Diffuse Color", 3, write_surfaces<&S::diffuse_color>, surface_passes},
+    {"GlossDir", 3, write_uncolored<&S::glossy_direct, &S::glossy_color>, surface_passes},
+    {"GlossInd", 3, write_uncolored<&S::glossy_indirect, &S::glossy_color>, surface_passes},
+    {"GlossCol", 3, write_surfaces<&S::glossy_color>, surface_passes},
+    {"TransDir", 3, write_uncolored<&S::transmission_direct, &S::transmission_color>, surface_passes},
+    {"TransInd", 3, write_uncolored<&S::transmission_indirect, &S::transmission_color>, surface_passes},
+    {"TransCol", 3, write_surfaces<&S::transmission_color>, surface_passes},
+    {"Env", 3, write_surfaces<&S::environment>, surface_passes},
+    {"UV", 3, write_surfaces<&S::uv>, surface_passes},
+    {"Mist", 1, write_mist, surface_passes},
+    {"IndexOB", 1,
+     [](const Pixel&, const OwnSum&, const SurfacePixel& surfaces, float* out) { *out = surfaces.object_index; },
+     surface_passes},
+    {"IndexMA", 1,
+     [](const Pixel&, const OwnSum&, const SurfacePixel& surfaces, float* out) { *out = surfaces.material_index; },
+     surface_passes},
 };
+
+/// Copies a tile's pixels from or to a grid of all.
+template <class Item>
+void load_tile(const PixelGrid& grid, const std::vector<Item>& all, const Tile& tile, std::vector<Item>& items) {
+    items.clear();
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y));
+        items.insert(items.end(), first, first + (tile.x1 - tile.x0));
+    }
+}
+template <class Item>
+void store_tile(const PixelGrid& grid, std::vector<Item>& all, const Tile& tile, const std::vector<Item>& items) {
+    const auto width = static_cast<std::ptrdiff_t>(tile.x1 - tile.x0);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        const auto begin = items.begin() + (y - tile.y0) * width;
+        std::copy(begin, begin + width, all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y)));
+    }
+}
 
 }  // namespace
 
@@ -106,11 +165,20 @@ void WeightedSum::add(std::span<const Sample> samples, std::span<const float> we
 
 void WeightedSum::add(const WeightedSum& other, float scale) {
     constexpr float once = 1.0f;
-    add_weighted({&other.sum, 1}, {&once, 1}, scale, sum);
+    add_weighted<Sample>({&other.sum, 1}, {&once, 1}, scale, sum);
     weight += scale * other.weight;
     squared_weight += sqr(scale) * other.squared_weight;
     told_weight += sqr(scale) * other.told_weight;
     variance += sqr(scale) * other.variance;
+}
+
+void SurfacePixel::add(std::span<const SurfacePasses> samples, std::span<const float> weights, float scale) {
+    add_weighted(samples, weights, scale, sum);
+}
+
+void SurfacePixel::add(const SurfacePixel& other, float scale) {
+    constexpr float once = 1.0f;
+    add_weighted<SurfacePasses>({&other.sum, 1}, {&once, 1}, scale, sum);
 }
 
 void OwnSum::add(std::span<const Sample> samples, float scale) {
@@ -135,23 +203,34 @@ const Pass& find_pass(std::string_view name) {
     throw std::invalid_argument("there is no pass '" + std::string(name) + "'; choose one of " + known);
 }
 
-Film::Film(int width, int height, bool keeps_own_sums)
-    : grid_{width, height}, pixels_(grid_.size()), own_sums_(keeps_own_sums ? grid_.size() : 0) {}
+Film::Film(int width, int height, const FilmParts& parts)
+    : grid_{width, height},
+      pixels_(grid_.size()),
+      own_sums_(parts.own_sums ? grid_.size() : 0),
+      mattes_(parts.mattes ? grid_.size() : 0),
+      surfaces_(parts.surface_passes ? grid_.size() : 0) {}
 
-void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const {
-    pixels.clear();
-    for (int y = tile.y0; y < tile.y1; ++y) {
-        pixels.insert(pixels.end(), row(tile.x0, y), row(tile.x0, y) + (tile.x1 - tile.x0));
-    }
-}
+void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const { load_tile(grid_, pixels_, tile, pixels); }
 
 void Film::store(const Tile& tile, const std::vector<Pixel>& pixels) {
     const std::shared_lock lock(mutex_);
-    const auto width = static_cast<std::ptrdiff_t>(tile.x1 - tile.x0);
-    for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto begin = pixels.begin() + (y - tile.y0) * width;
-        std::copy(begin, begin + width, row(tile.x0, y));
-    }
+    store_tile(grid_, pixels_, tile, pixels);
+}
+
+void Film::load_surfaces(const Tile& tile, std::vector<SurfacePixel>& pixels) const {
+    load_tile(grid_, surfaces_, tile, pixels);
+}
+
+void Film::store_surfaces(const Tile& tile, const std::vector<SurfacePixel>& pixels) {
+    const std::shared_lock lock(mutex_);
+    store_tile(grid_, surfaces_, tile, pixels);
+}
+
+void Film::load_mattes(const Tile& tile, std::vector<Mattes>& pixels) const { load_tile(grid_, mattes_, tile, pixels); }
+
+void Film::store_mattes(const Tile& tile, const std::vector<Mattes>& pixels) {
+    const std::shared_lock lock(mutex_);
+    store_tile(grid_, mattes_, tile, pixels);
 }
 
 void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
@@ -163,6 +242,19 @@ void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
 void Film::merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights) {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        if (keeps_mattes()) {
+            Mattes merged;
+            merged.add(mattes_[i], own_weights[i] * pixels_[i].samples.per_weight());
+            merged.add(other.mattes_[i], other_weights[i] * other.pixels_[i].samples.per_weight());
+            mattes_[i] = std::move(merged);
+        }
+        if (keeps_surface_passes()) {
+            SurfacePixel merged = surfaces_[i];  // with what its centre meets
+            merged.sum = {};
+            merged.add(surfaces_[i], own_weights[i] * pixels_[i].samples.per_weight());
+            merged.add(other.surfaces_[i], other_weights[i] * other.pixels_[i].samples.per_weight());
+            surfaces_[i] = merged;
+        }
         WeightedSum merged;
         for (const auto& [samples, weight] :
              {std::pair(pixels_[i].samples, own_weights[i]), std::pair(other.pixels_[i].samples, other_weights[i])})
@@ -194,18 +286,33 @@ void Film::add(const Film& other) {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].samples.add(other.pixels_[i].samples, 1.0f);
     for (std::size_t i = 0; i < own_sums_.size(); ++i) own_sums_[i].add(other.own_sums_[i], 1.0f);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i].add(other.surfaces_[i], 1.0f);
+    for (std::size_t i = 0; i < mattes_.size(); ++i) mattes_[i].add(other.mattes_[i], 1.0f);
 }
 
 std::vector<float> Film::read(const Pass& pass) const {
     const auto stride = static_cast<std::size_t>(pass.channels);
     std::vector<float> values(pixels_.size() * stride);
-    if (pass.is_for_denoiser && !keeps_own_sums())
-        throw std::invalid_argument("the pass '" + std::string(pass.name) +
-                                    "' is for a denoiser: render with denoising_passes");
-    const OwnSum none;
+    const auto refuse = [&](const std::string& why) {
+        throw std::invalid_argument("the pass '" + std::string(pass.name) + "' is " + why);
+    };
+    if (pass.needs.own_sums && !keeps_own_sums()) refuse("for a denoiser: render with denoising_passes");
+    if (pass.needs.surface_passes && !keeps_surface_passes()) refuse("of surfaces: render with surface_passes");
+    const OwnSum no_own;
+    const SurfacePixel no_surfaces;
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i)
-        pass.write(pixels_[i], keeps_own_sums() ? own_sums_[i] : none, &values[i * stride]);
+        pass.write(pixels_[i], keeps_own_sums() ? own_sums_[i] : no_own,
+                   keeps_surface_passes() ? surfaces_[i] : no_surfaces, &values[i * stride]);
+    return values;
+}
+
+std::vector<float> Film::read_mattes(MatteKind kind, std::size_t rank) const {
+    if (!keeps_mattes()) throw std::invalid_argument("there are no mattes: render with mattes");
+    std::vector<float> values(4 * pixels_.size());
+    const std::unique_lock lock(mutex_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        mattes_[i].write(kind, rank, pixels_[i].samples.per_weight(), &values[4 * i]);
     return values;
 }
 

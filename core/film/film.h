@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/film/mattes.h"
 #include "core/math/vector.h"
 
 namespace pivot {
@@ -28,6 +29,20 @@ struct Sample {
     Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
     float error = 0.0f;            ///< analytic: predicted for what is in closed form, as radiance
     float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared
+};
+
+/// What passes tell of the surfaces that a camera sees and of the light that these send to it, averaged over samples.
+/// Kept only where it is asked for.
+struct SurfacePasses {
+    // Light by what reflected it last, straight from where it shines and by way of others.
+    Rgb diffuse_direct{0.0f}, diffuse_indirect{0.0f};
+    Rgb glossy_direct{0.0f}, glossy_indirect{0.0f};
+    Rgb transmission_direct{0.0f}, transmission_indirect{0.0f};
+    Rgb environment{0.0f};  ///< the world as it is seen
+    // What the surfaces send to the camera where all light around is 1.
+    Rgb diffuse_color{0.0f}, glossy_color{0.0f}, transmission_color{0.0f};
+    Vec3f uv{0.0f};         ///< the third is 1 on surfaces
+    float nearness = 0.0f;  ///< how much the mist leaves of what is seen
 };
 
 /// Errors of noise are relative to a pixel's radiance, or to this where it is darker.
@@ -76,6 +91,23 @@ struct OwnSum {
     float per_weight() const { return weight > 0.0f ? 1.0f / weight : 0.0f; }
 };
 
+/// A pixel's sums of what passes tell of surfaces, weighted as its samples, and what the ray through its centre meets.
+struct SurfacePixel {
+    SurfacePasses sum;
+    float object_index = 0.0f, material_index = 0.0f;
+
+    /// Adds samples of one square by their weights, all of it times `scale`.
+    void add(std::span<const SurfacePasses> samples, std::span<const float> weights, float scale);
+    void add(const SurfacePixel& other, float scale);
+};
+
+/// What a film keeps beside its samples, at the price of memory.
+struct FilmParts {
+    bool own_sums = false;  ///< for a denoiser
+    bool surface_passes = false;
+    bool mattes = false;
+};
+
 /// A grid of pixels, row by row.
 struct PixelGrid {
     int width, height;
@@ -94,8 +126,8 @@ struct Tile {
 struct Pass {
     std::string_view name;
     int channels;
-    void (*write)(const Pixel& pixel, const OwnSum& own, float* out);
-    bool is_for_denoiser = false;  ///< written from own sums
+    void (*write)(const Pixel& pixel, const OwnSum& own, const SurfacePixel& surfaces, float* out);
+    FilmParts needs{};
 };
 
 /// Throws std::invalid_argument, which lists the passes there are.
@@ -103,8 +135,7 @@ const Pass& find_pass(std::string_view name);
 
 class Film {
    public:
-    /// keeps_own_sums: whether passes for a denoiser can be read.
-    Film(int width, int height, bool keeps_own_sums);
+    Film(int width, int height, const FilmParts& parts);
 
     const PixelGrid& grid() const { return grid_; }
     int width() const { return grid_.width; }
@@ -118,6 +149,15 @@ class Film {
     /// Adds own sums of the pixels of a row from x on. Writers of one pixel must take turns.
     void add_own(int x, int y, std::span<const OwnSum> sums);
 
+    bool keeps_surface_passes() const { return !surfaces_.empty(); }
+    /// As load() and store() of what passes tell of surfaces.
+    void load_surfaces(const Tile& tile, std::vector<SurfacePixel>& pixels) const;
+    void store_surfaces(const Tile& tile, const std::vector<SurfacePixel>& pixels);
+
+    bool keeps_mattes() const { return !mattes_.empty(); }
+    void load_mattes(const Tile& tile, std::vector<Mattes>& pixels) const;
+    void store_mattes(const Tile& tile, const std::vector<Mattes>& pixels);
+
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
@@ -126,17 +166,19 @@ class Film {
     /// Adds the other's samples.
     void add(const Film& other);
 
-    /// A pass as height x width x channels, bottom row first. Throws std::invalid_argument where own sums are missing.
+    /// A pass as height x width x channels, bottom row first. Throws std::invalid_argument where what it needs is not
+    /// kept.
     std::vector<float> read(const Pass& pass) const;
+    /// Two ranks of ids from this one on, as height x width x (id, weight, id, weight). Throws likewise.
+    std::vector<float> read_mattes(MatteKind kind, std::size_t rank) const;
 
    private:
-    Pixel* row(int x, int y) { return &pixels_[grid_.index(x, y)]; }
-    const Pixel* row(int x, int y) const { return const_cast<Film*>(this)->row(x, y); }
-
     PixelGrid grid_;
     std::vector<Pixel> pixels_;
-    std::vector<OwnSum> own_sums_;     ///< of each pixel, or empty
-    mutable std::shared_mutex mutex_;  ///< shared by writers, whose tiles are disjoint; owned by a reader
+    std::vector<OwnSum> own_sums_;        ///< of each pixel, or empty
+    std::vector<Mattes> mattes_;          ///< likewise
+    std::vector<SurfacePixel> surfaces_;  ///< likewise
+    mutable std::shared_mutex mutex_;     ///< shared by writers, whose tiles are disjoint; owned by a reader
 };
 
 }  // namespace pivot

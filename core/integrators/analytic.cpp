@@ -1,298 +1,14 @@
 #include "core/integrators/analytic.h"
 
 #include "core/integrators/analytic_fog.h"
-#include "core/integrators/analytic_world.h"
-#include "core/integrators/area_light_shading.h"
 #include "core/integrators/arrival.h"
-#include "core/integrators/bump_share.h"
-#include "core/integrators/cap_light_shading.h"
-#include "core/integrators/lobe_points.h"
+#include "core/integrators/gathered_light.h"
 #include "core/integrators/look_rays.h"
 #include "core/integrators/shown_surfaces.h"
-#include "core/integrators/specular_occlusion.h"
-#include "core/integrators/virtual_light_shading.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
 namespace {
-
-/// What the Method pass shows, from cold to warm with the cost.
-constexpr std::array<std::array<float, 3>, method_names.size()> method_colors{{{0.0f, 0.0f, 0.0f},
-                                                                               {0.05f, 0.1f, 0.6f},
-                                                                               {0.0f, 0.5f, 0.8f},
-                                                                               {0.0f, 0.7f, 0.4f},
-                                                                               {0.5f, 0.8f, 0.1f},
-                                                                               {0.9f, 0.6f, 0.0f},
-                                                                               {1.0f, 0.35f, 0.0f},
-                                                                               {1.0f, 0.05f, 0.0f},
-                                                                               {0.5f, 0.0f, 0.2f},
-                                                                               {0.5f, 0.2f, 0.8f},
-                                                                               {0.9f, 0.2f, 0.6f},
-                                                                               {0.4f, 0.4f, 0.4f},
-                                                                               {0.7f, 0.7f, 0.7f},
-                                                                               {0.3f, 0.9f, 0.9f},
-                                                                               {1.0f, 1.0f, 1.0f}}};
-
-Rgb color_of(Method method) {
-    const auto& c = method_colors[static_cast<std::size_t>(method)];
-    return {c[0], c[1], c[2]};
-}
-
-float size_of(const Rgb& light) { return mean_component(abs(light)); }
-
-/// A point's direct light so far, the methods weighted by what they contribute.
-struct Gathered {
-    Rgb radiance{0.0f}, indirect{0.0f}, method{0.0f};
-    float size = 0.0f;  ///< of the light, whatever its sign
-    float error = 0.0f, shadow_variance = 0.0f;
-
-    void add(const Rgb& light, Method how, float relative_error) {
-        radiance += light;
-        size += size_of(light);
-        method += size_of(light) * color_of(how);
-        error += size_of(light) * relative_error;
-    }
-    void add(const Gathered& part) {
-        radiance += part.radiance;
-        indirect += part.indirect;
-        size += part.size;
-        method += part.method;
-        error += part.error;
-        shadow_variance += part.shadow_variance;
-    }
-};
-
-using LightShading = std::variant<CapLightShading, AreaLightShading>;
-
-LightShading shade_light(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings) {
-    if (const auto* area = std::get_if<AreaLight>(&light)) return AreaLightShading(*area, batch, settings);
-    return CapLightShading(light, batch, settings);
-}
-
-const Reflection& reflection_of(const LightShading& shading) {
-    return std::visit([](const auto& s) -> const Reflection& { return s.reflection(); }, shading);
-}
-
-Reflection seen_by_rays(const LightShading& shading, const Scene& scene, const ShadowPoints& points,
-                        std::span<const float> totals) {
-    return std::visit([&](const auto& s) { return s.seen_by_rays(scene, points, totals); }, shading);
-}
-
-constexpr std::uint32_t bump_points_of_light = 16;
-
-/// What bumps leave of each lane's diffuse half.
-void apply_bumps(const Light& light, const SurfaceBatch& batch, Reflection& reflection) {
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const auto& [point, surface, bent_cone] = *batch.lanes[i];
-        if (!surface.has_diffuse() || !surface.bump.is_turned()) continue;
-        const auto beam = [&, &frame = point.frame](const Vec3f& wi_local) {
-            const auto* spot = std::get_if<SpotLight>(&light);
-            return spot ? spot_falloff(*spot, -dot(frame.to_world(wi_local), spot->direction)) : 1.0f;
-        };
-        const BumpShare share = bump_share(surface.bump, local_cap(light, point), bump_points_of_light, beam);
-        reflection.diffuse[i] *= share.value;
-        reflection.diffuse_error[i] += share.error;
-    }
-}
-
-/// What bent cones leave of each lane's reflection of a light.
-void apply_bent_cones(const Light& light, const SurfaceBatch& batch, Reflection& reflection,
-                      std::span<Gathered> gathered) {
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const auto& [point, surface, bent_cone] = *batch.lanes[i];
-        const SeenShare seen = seen_share(light, bent_cone, point, surface);
-        gathered[i].error += error_of_bent_cone(reflection.diffuse[i], seen.diffuse) +
-                             error_of_bent_cone(reflection.glossy[i], seen.glossy);
-        reflection.diffuse[i] *= seen.diffuse;
-        reflection.glossy[i] *= seen.glossy;
-    }
-}
-
-/// Light that comes to a batch if nothing is in its way.
-struct Unhidden {
-    std::vector<LightShading> lamps;
-    std::array<WorldReflection, batch_size> world{};
-    Lanes totals{};  ///< of each lane; what is found to be hidden is taken off
-
-    float size(std::size_t lamp, std::size_t lane) const {
-        const Reflection& reflection = reflection_of(lamps[lamp]);
-        return size_of(reflection.diffuse[lane]) + size_of(reflection.glossy[lane]);
-    }
-};
-Unhidden unhidden_light(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                        const SurfaceBatch& batch) {
-    Unhidden light;
-    light.lamps.reserve(lights.exact.size());
-    for (const Light& lamp : lights.exact) {
-        light.lamps.push_back(shade_light(lamp, batch, settings));
-        for (std::size_t i = 0; i < batch.count; ++i) light.totals[i] += light.size(light.lamps.size() - 1, i);
-    }
-    if (!scene.has_world()) return light;
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        light.world[i] = reflect_whole_world(scene, *batch.lanes[i]);
-        if (is_mirror(batch.lanes[i]->surface)) light.world[i].glossy = Rgb(0.0f);
-        light.totals[i] += size_of(light.world[i].diffuse) + size_of(light.world[i].glossy);
-    }
-    return light;
-}
-
-/// The lamps from the one that gives most, so that the others' rays are as many as what is seen of it asks for.
-std::vector<std::size_t> brightest_first(const Unhidden& light, std::size_t lanes) {
-    std::vector<float> shares(light.lamps.size());
-    std::vector<std::size_t> order(shares.size());
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-        order[k] = k;
-        for (std::size_t i = 0; i < lanes; ++i)
-            if (light.totals[i] > 0.0f) shares[k] = std::max(shares[k], light.size(k, i) / light.totals[i]);
-    }
-    std::erase_if(order, [&](std::size_t k) { return !(shares[k] > 0.0f); });
-    std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return shares[k]; });
-    return order;
-}
-
-void add_lamps(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-               const ShadowPoints& points, const SurfaceBatch& batch, Unhidden& light, std::span<Gathered> gathered) {
-    for (const std::size_t k : brightest_first(light, batch.count)) {
-        const Light& lamp = lights.exact[k];
-        Reflection reflection = reflection_of(light.lamps[k]);
-        if (settings.occlusion == Occlusion::ray_traced) {
-            reflection = seen_by_rays(light.lamps[k], scene, points, std::span(light.totals).first(batch.count));
-            for (std::size_t i = 0; i < batch.count; ++i)
-                light.totals[i] -= light.size(k, i) - size_of(reflection.diffuse[i]) - size_of(reflection.glossy[i]);
-        }
-        apply_bumps(lamp, batch, reflection);
-        apply_media(scene, lamp, batch, reflection);
-        if (settings.occlusion == Occlusion::bent_cone) apply_bent_cones(lamp, batch, reflection, gathered);
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            gathered[i].add(reflection.diffuse[i], Method::points_1, reflection.diffuse_error[i]);
-            if (k < scene.lamps().size() || !is_mirror(batch.lanes[i]->surface))
-                gathered[i].add(reflection.glossy[i], reflection.method[i], reflection.glossy_error[i]);
-            gathered[i].shadow_variance += reflection.shadow_variance[i];
-        }
-    }
-}
-
-void add_virtual_lights(VirtualReflection reflection, const Base& surface, bool has_bounced, Gathered& gathered) {
-    if (is_mirror(surface)) reflection.glossy = {};
-    const Rgb light = reflection.radiance(surface);
-    gathered.add(light, Method::virtual_lights, reflection.error);
-    gathered.shadow_variance += sqr(size_of(light) * reflection.shadow_deviation);
-    if (has_bounced) gathered.indirect += light;
-}
-
-void shade_batch(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                 const AnalyticLights& lights, std::uint32_t sample_index, std::span<const ShadingPoint> shading,
-                 std::span<Gathered> gathered) {
-    const SurfaceBatch batch = make_batch(shading);
-    if (!batch.has_diffuse && !batch.has_glossy) return;
-    Unhidden light = unhidden_light(scene, settings, lights, batch);
-    add_lamps(scene, settings, lights, points, batch, light, gathered);
-    for (const VirtualLightTree& side : lights.emitted) {
-        if (side.empty()) continue;
-        const auto reflected = reflect_virtual_lights(scene, settings, side, {}, batch, sample_index);
-        for (std::size_t i = 0; i < batch.count; ++i)
-            add_virtual_lights(reflected[i], shading[i].surface, false, gathered[i]);
-    }
-    if (!scene.has_world()) return;
-    for (std::size_t i = 0; i < shading.size(); ++i) {
-        WorldReflection world = light.world[i];
-        if (settings.occlusion == Occlusion::ray_traced)
-            world = world_seen_by_rays(world, scene, points, shading[i], light.totals[i]);
-        else if (settings.occlusion == Occlusion::bent_cone)
-            world = world_seen_by_cone(world, shading[i]);
-        gathered[i].add(world.diffuse, Method::point_set, world.bump_error);
-        gathered[i].add(world.glossy, Method::point_set, error_of_albedo);
-        gathered[i].error += world.cone_error;
-        gathered[i].shadow_variance += world.shadow_variance;
-    }
-}
-
-/// What has closed forms, and of which surface: first all bases, so that neighbours stay neighbours, then what further
-/// lobes are.
-struct Parts {
-    std::vector<ShadingPoint> shading;
-    std::vector<std::size_t> surface;
-};
-Parts parts_of(const Scene& scene, const RenderSettings& settings, std::span<const LookedAt> hits) {
-    Parts parts;
-    const auto add = [&](std::size_t of, const SurfacePoint& point, const Base& base) {
-        if (is_black(base)) return;
-        parts.shading.push_back({point, base, {}});
-        if (settings.occlusion == Occlusion::bent_cone)
-            parts.shading.back().bent_cone = scene.bent_cone(hits[of].arrival.hit, point);
-        parts.surface.push_back(of);
-    };
-    for (std::size_t i = 0; i < hits.size(); ++i) add(i, hits[i].point, hits[i].surface);
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        for_each_lobe(hits[i].surface, [&, &hit = hits[i]]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-            if constexpr (L::has_closed_form) {
-                if (!is_seen_from_within(lobe))
-                    add(i, L::reflects ? hit.point : turned_over(hit.point), lobe.closed_form(hit.surface.wo_local));
-            }
-        });
-    return parts;
-}
-
-/// Adds what the parts reflect of light that bounced.
-void add_bounced(const Scene& scene, const RenderSettings& settings, const VirtualLights& bounced,
-                 std::uint32_t sample_index, std::span<const LookedAt> hits, const Parts& parts,
-                 std::span<const std::uint32_t> pixels, SharedReflections& shared, std::span<Gathered> light) {
-    Parts lit;
-    std::vector<std::uint32_t> pixel_of;
-    for (std::size_t i = 0; i < parts.shading.size(); ++i) {
-        ShadingPoint part = parts.shading[i];
-        if (is_mirror(part.surface)) part.surface = without_highlight(part.surface);
-        if (is_black(part.surface)) continue;
-        lit.shading.push_back(part);
-        lit.surface.push_back(parts.surface[i]);
-        pixel_of.push_back(pixels[hits[parts.surface[i]].sample]);
-    }
-    const auto reflections =
-        shared.reflect(scene, settings, bounced, lit.shading, pixel_of, sample_index / bounced_samples_shared);
-    for (std::size_t i = 0; i < reflections.size(); ++i)
-        add_virtual_lights(reflections[i], lit.shading[i].surface, true, light[lit.surface[i]]);
-}
-
-/// Adds what a surface's lobes without closed forms reflect.
-void add_lobe_points(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                     const ShadowPoints& points, const LookedAt& hit, Gathered& gathered) {
-    for_each_lobe(hit.surface, [&]<class L>(const L&, const LobeOf<float>& record, bool) {
-        if constexpr (!L::has_closed_form) {
-            Surface alone(make_base(BaseMaterialOf<float>{}, hit.surface.wo_local));
-            alone.lobes = {record};
-            alone.lobes[0].probability = 1.0f;
-            const auto add = [&](const LobeReflection& reflection) {
-                gathered.add(reflection.radiance, Method::lobe_directions, reflection.error);
-                gathered.shadow_variance += reflection.shadow_variance;
-            };
-            for (const Light& light : lights.exact)
-                add(reflect_light(scene, settings, points, light, hit.point, alone));
-            if (scene.has_world()) add(reflect_world(scene, settings, points, hit.point, alone));
-        }
-    });
-}
-
-/// What lights send to the viewer by way of each surface.
-std::vector<Gathered> gather_light(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
-                                   const ShadowPoints& points, std::span<const LookedAt> surfaces,
-                                   std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
-                                   SharedReflections& shared) {
-    const Parts parts = parts_of(scene, settings, surfaces);
-    const auto& [shading, surface_of] = parts;
-    std::vector<Gathered> light(surfaces.size());
-    for (std::size_t first = 0; first < shading.size(); first += batch_size) {
-        const std::size_t count = std::min(batch_size, shading.size() - first);
-        std::array<Gathered, batch_size> gathered{};
-        shade_batch(scene, settings, points, lights, sample_index, std::span(shading).subspan(first, count),
-                    std::span(gathered).first(count));
-        for (std::size_t i = 0; i < count; ++i) light[surface_of[first + i]].add(gathered[i]);
-    }
-    if (!lights.bounced.is_empty())
-        add_bounced(scene, settings, lights.bounced, sample_index, surfaces, parts, pixels, shared, light);
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-        if (surfaces[i].surface.has_lobes()) add_lobe_points(scene, settings, lights, points, surfaces[i], light[i]);
-    return light;
-}
 
 /// Appends the surfaces of a batch of those shown, and tells the passes of them. batch_of: their arrivals.
 void see(const Scene& scene, std::uint32_t bounce, std::span<const Arrival* const> batch_of,
@@ -381,18 +97,19 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
     std::vector<float> size(samples.size(), 0.0f);  // of the light of which `method` is the sum
     std::vector<LookRay> rays;
     rays.reserve(camera_rays.size());
-    const float spread = scene.camera().pixel_spread() * part_of_pixel(settings);
+    const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(settings);
     for (std::size_t i = 0; i < camera_rays.size(); ++i)
-        rays.push_back({.ray = camera_rays[i], .sample = i, .spread = spread});
+        rays.push_back({.ray = camera_rays[i], .sample = i, .footprint_m = width.start_m, .spread = width.per_m});
     for (std::uint32_t bounce = 0; !rays.empty(); ++bounce) {
         std::vector<std::optional<RayHit>> hits(rays.size());
         std::vector<Ray> bare;
-        for (const LookRay& look : rays) bare.push_back(look.ray);
-        scene.intersect(bare, bounce == 0 ? visible_to_camera : visible_to_light, hits);
+        std::vector<std::uint32_t> met;
+        for (const LookRay& look : rays) bare.push_back(look.ray), met.push_back(met_by(look.ray_kind));
+        scene.intersect(bare, met, hits);
         if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples);
         const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples);
         const std::vector<Gathered> light =
-            gather_light(scene, settings, lights, points, surfaces, pixels, sample_index, shared);
+            gather_light(scene, settings, lights, points, bounce, surfaces, pixels, sample_index, shared);
         rays.clear();
         const Vec2f u = points.facet_point(bounce);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {

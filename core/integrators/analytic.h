@@ -1,8 +1,8 @@
 // Direct light in closed form: no random numbers, the same picture on every run and any number of threads.
 //
 // Each light is integrated over each lobe by the cheapest method that meets the error budget (core/shading), eight
-// points at a time; visibility is traced to a fixed set of points on the light, the same for every pixel. Light between
-// surfaces is that of virtual lights, or left to Monte Carlo.
+// points at a time; visibility is traced to a fixed set of points on the light, the same for every pixel. Mirrors and
+// glass are followed by rays; other light between surfaces is that of virtual lights, or left to Monte Carlo.
 #pragma once
 
 #include <span>
@@ -12,9 +12,6 @@
 #include "core/integrators/shared_reflections.h"
 
 namespace pivot {
-
-/// So many successive samples of a pixel share what is known of light that bounced.
-inline constexpr std::uint32_t bounced_samples_shared = 4;
 
 /// Camera rays, best neighbours, and the pixel of each, counted as `shared` does. sample_index: which part of the fixed
 /// point sets these rays use; all samples of a pixel together use them whole. lights: of gather_lights(). shared: of

@@ -136,7 +136,10 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, co
     const float budget = 0.01f * settings.error_budget_percent;
     MediaRay to_lamp(scene.media());
     for (std::size_t i = 0; i < ray.size(); ++i) {
-        for (const Light& light : scene.lamps()) {
+        for (std::size_t place = 0; place < scene.lamps().size(); ++place) {
+            const Light& light = scene.light(place);
+            const LightRules rules = scene.has_light_rules() ? scene.rules_of(place) : LightRules{};
+            if (!(rules.lights & visible_to_scatter)) continue;
             LampInFog lamp(light, ray, i, to_lamp);
             if (!lamp.typical().scatters()) break;
             const auto lit = lit_part(light, lamp.part());
@@ -153,7 +156,7 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, co
             whole *= ray.before(i);
             if (!(max_component(abs(whole)) > 0.0f)) continue;
             VisibleShare share;
-            if (settings.occlusion == Occlusion::ray_traced) {
+            if (settings.occlusion == Occlusion::ray_traced && rules.casts_shadows) {
                 const ScatterTable table(map, 2 * nodes_of_panel, [&](const Batch& t) {
                     const std::array<Rgb, batch_size> scattered = lamp.at(t);
                     return gather([&](std::size_t k) { return mean_component(abs(scattered[k])); });

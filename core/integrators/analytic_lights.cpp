@@ -35,6 +35,10 @@ AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings)
     AnalyticLights lights;
     lights.exact.assign(scene.lamps().begin(), scene.lamps().end());
     const std::span<const Light> triangles = scene.triangle_lights();
+    const auto add_rules = [&](std::size_t place) {
+        if (scene.has_light_rules()) lights.rules.push_back(scene.rules_of(place));
+    };
+    for (std::size_t i = 0; i < lights.exact.size(); ++i) add_rules(i);
     double all = 0.0;
     for (const Light& light : triangles) all += power_of(std::get<AreaLight>(light));
     const double wanted = deposits_per_cell * static_cast<double>(settings.virtual_lights);
@@ -44,6 +48,7 @@ AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings)
         const double part = all > 0.0 ? power_of(light) / all : 1.0;
         if (part >= part_of_exact) {
             lights.exact.push_back(light);
+            add_rules(scene.lamps().size() + i);
             continue;
         }
         const std::uint32_t owner = scene.shining_triangle(i).instance;

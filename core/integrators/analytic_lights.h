@@ -8,7 +8,8 @@
 namespace pivot {
 
 struct AnalyticLights {
-    std::vector<Light> exact;  ///< the scene's lamps, then triangles of meshes that give much of what triangles do
+    std::vector<Light> exact;       ///< the scene's lamps, then triangles of meshes that give much of what they all do
+    std::vector<LightRules> rules;  ///< of each of these; empty: there are none
     /// By the other triangles: on their normals' side, and on the other, of which closed meshes hide one.
     std::array<VirtualLightTree, 2> emitted;
     VirtualLights bounced;  ///< if asked for

@@ -31,7 +31,7 @@ WorldReflection reflect_whole_world(const Scene& scene, const ShadingPoint& shad
 
 WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& scene, const ShadowPoints& points,
                                    const ShadingPoint& shading, float total) {
-    const auto& [point, surface, bent_cone] = shading;
+    const auto& [point, surface, bent_cone, is_glass] = shading;
     const float diffuse = size_of(whole.diffuse), glossy = size_of(whole.glossy);
     if (!(diffuse + glossy > 0.0f)) return whole;
     const float all = std::max(total, diffuse + glossy);  // which rounding may leave less of

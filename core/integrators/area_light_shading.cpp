@@ -17,7 +17,7 @@ AreaOutline<Batch> local_outline(const AreaLight& light, const SurfaceBatch& bat
 LobeIntegral<Batch> integrate_ltc(const SurfaceBatch& batch, const AreaLight& light) {
     Lanes plain, cos_oh;
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const auto& [point, surface, bent_cone] = *batch.lanes[i];
+        const auto& [point, surface, bent_cone, is_glass] = *batch.lanes[i];
         const Vec3f center = point.frame.to_local(light.center - point.position);
         const Vec3f u = point.frame.to_local(light.half_u), v = point.frame.to_local(light.half_v);
         const auto corners = AreaOutline<float>{center, u, v, light.shape}.corners();
@@ -85,17 +85,21 @@ AreaLightShading::AreaLightShading(const AreaLight& light, const SurfaceBatch& b
         if (!(facing[i] > 0.0f)) reflection_.diffuse[i] = reflection_.glossy[i] = Rgb(0.0f);
 }
 
-Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints& points,
-                                          std::span<const float> totals) const {
+Reflection AreaLightShading::left_by_points(const Scene& scene, const ShadowPoints& points,
+                                            std::span<const float> totals, bool traces_rays) const {
     std::array<Rgb, batch_size> both;
     for (std::size_t i = 0; i < batch_size; ++i) both[i] = abs(reflection_.diffuse[i]) + abs(reflection_.glossy[i]);
-    const ShadowPoints of_light = points.for_share(largest_share(both, totals));
+    // Shares of few points that see parts of the light are shifted.
+    constexpr std::uint32_t spread_points = 64;
+    const bool is_spread = light_.inverse_tan_spread > 0.0f;
+    const ShadowPoints of_light =
+        points.for_share(largest_share(both, totals)).at_least(is_spread ? spread_points : 1u);
     std::array<LaneShares, batch_size> shares{};
     const auto add_points = [&](const PartOfPoints& part, std::span<const bool> wanted, ShadowRays& rays) {
         const auto add = [&](const Vec3f& on_light, bool is_rim) {
             for (std::size_t i = 0; i < batch_.count; ++i) {
                 if (!wanted[i]) continue;
-                const auto& [point, surface, bent_cone] = *batch_.lanes[i];
+                const auto& [point, surface, bent_cone, is_glass] = *batch_.lanes[i];
                 const Vec3f d = on_light - point.position;
                 const float distance_m = length(d);
                 const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
@@ -108,7 +112,8 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
                 rays.add(
                     {point.ray_origin(wi), wi, 0.0f, distance_m * shadow_reach - error_m / std::max(cosine, 1e-6f)},
                     point.faces(wi),
-                    {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe, is_rim ? 1.0f : 0.0f});
+                    {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe, is_rim ? 1.0f : 0.0f,
+                     is_spread ? spread_falloff(light_.inverse_tan_spread, cosine) : 1.0f});
             }
         };
         for (std::uint32_t k = 0; part.asks_rim() && k < rim_points; ++k) add(rim_of(light_, k), true);
@@ -117,7 +122,8 @@ Reflection AreaLightShading::seen_by_rays(const Scene& scene, const ShadowPoints
             add(place_on(light_, of_light.point(PointSet::light_diffuse, k)), false);
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, points.max_passages(), of_light.first_part(), lanes, add_points);
+    ask_points(scene, points.max_passages(), is_spread ? 1.0f : of_light.first_part(), lanes, add_points, {},
+               traces_rays);
     return seen_in_part(reflection_, lanes, points);
 }
 

@@ -14,9 +14,19 @@ class AreaLightShading {
 
     /// The same times the share of the light that each lane sees, by rays to fixed points of it, which each lobe weighs
     /// by what it reflects of them. totals: each lane's light from all lights.
-    Reflection seen_by_rays(const Scene& scene, const ShadowPoints& points, std::span<const float> totals) const;
+    Reflection seen_by_rays(const Scene& scene, const ShadowPoints& points, std::span<const float> totals) const {
+        return left_by_points(scene, points, totals, true);
+    }
+
+    /// What a spread leaves of it, which has no closed form, if nothing is in the light's way.
+    Reflection spread(const Scene& scene, const ShadowPoints& points, std::span<const float> totals) const {
+        return light_.inverse_tan_spread > 0.0f ? left_by_points(scene, points, totals, false) : reflection_;
+    }
 
    private:
+    Reflection left_by_points(const Scene& scene, const ShadowPoints& points, std::span<const float> totals,
+                              bool traces_rays) const;
+
     const AreaLight& light_;
     const SurfaceBatch& batch_;
     Reflection reflection_{};

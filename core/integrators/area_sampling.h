@@ -58,7 +58,7 @@ class AreaSampler {
         if (uses_diffuse_) {
             const Vec2<T> center = detail::fit_diffuse(light, middle).least(light, x_span, middle);
             diffuse_ = {light, x_span, center, detail::fit_diffuse(light, center)};
-            diffuse_.fill(light, [](const Vec3<T>& wi) { return max(wi.z, T(0)); });
+            diffuse_.fill(light, [&](const Vec3<T>& wi) { return max(wi.z, T(0)) * light.spread_weight(wi); });
             diffuse = surface.diffuse * diffuse_.integral * T(1.0f / pi<float>);
         }
         if (uses_glossy_) glossy = fit_highlight(surface, x_span);
@@ -109,7 +109,8 @@ class AreaSampler {
             const Vec3<T> h = wo + wi;
             const T across2 = sqr(h.x) + sqr(h.y), up2 = sqr(h.z), cos_i = max(wi.z, T(0));
             const T shadowed = cos_i * masked_view + sqrt(alpha2 + room * sqr(cos_i));
-            return sqr(across2 + up2) * cos_i * inverse(sqr(across2 + alpha2 * up2) * shadowed);
+            return sqr(across2 + up2) * cos_i * inverse(sqr(across2 + alpha2 * up2) * shadowed) *
+                   light_.spread_weight(wi);
         });
         const Vec3<T> h = wo + see(light_, center).wi;
         const T cos_oh = min(dot(wo, h) * inverse_sqrt(max(dot(h, h), tiny<T>)), T(1));

@@ -14,6 +14,13 @@ struct AreaView {
     Vec3<T> normal;      ///< of the side towards the point, if that shines
     T parallelogram_m2;  ///< |half_u x half_v|
     Mask<T> ellipse, triangle;
+    T inverse_tan_spread;
+
+    /// About what a spread leaves of the light, never nothing: for samples to be drawn by.
+    T spread_weight(const Vec3<T>& wi) const {
+        if (!any(inverse_tan_spread > T(0))) return T(1);
+        return max(spread_falloff(inverse_tan_spread, -dot(wi, normal)), T(0.02f));
+    }
 };
 
 /// A place for u in [0, 1)^2, even by area.
@@ -47,6 +54,7 @@ struct AreaLightOf {
     T parallelogram_m2;
     T is_ellipse, is_triangle;  ///< 0 or 1
     T surface_error_m;
+    T inverse_tan_spread;
 };
 
 inline AreaLightOf<float> numbers_of(const AreaLight& light) {
@@ -58,7 +66,8 @@ inline AreaLightOf<float> numbers_of(const AreaLight& light) {
             parallelogram_m2(light),
             light.shape == AreaShape::ellipse ? 1.0f : 0.0f,
             light.shape == AreaShape::triangle ? 1.0f : 0.0f,
-            surface_error_m(light)};
+            surface_error_m(light),
+            light.inverse_tan_spread};
 }
 
 template <class T>
@@ -69,7 +78,8 @@ AreaView<T> view_from(const AreaLightOf<T>& light, const SurfacePointOf<T>& poin
                      .normal = point.frame.to_local(light.normal),
                      .parallelogram_m2 = light.parallelogram_m2,
                      .ellipse = light.is_ellipse > T(0),
-                     .triangle = light.is_triangle > T(0)};
+                     .triangle = light.is_triangle > T(0),
+                     .inverse_tan_spread = light.inverse_tan_spread};
     // A triangle has two sides.
     view.normal = select(view.triangle && dot(view.center, view.normal) > T(0), -view.normal, view.normal);
     return view;

@@ -107,11 +107,14 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
     const Vec3b wo = -at.arrivals.direction;
     ArrivalBatch batch{point, material_at(shader, memory.registers)};
     turn_over(batch.material, is_behind);
-    const auto unit = [&](const std::array<std::uint32_t, 3>& registers, const Vec3b& otherwise) {
-        const Vec3b v(memory.registers[registers[0]], memory.registers[registers[1]], memory.registers[registers[2]]);
+    const auto unit_of = [](const Vec3b& v, const Vec3b& otherwise) {
         const Batch v2 = dot(v, v);
         const BatchMask has_length = v2 > tiny<Batch> && v2 <= std::numeric_limits<Batch>::max();
         return select(has_length, v / sqrt(select(has_length, v2, Batch(1.0f))), otherwise);
+    };
+    const auto unit = [&](const std::array<std::uint32_t, 3>& registers, const Vec3b& otherwise) {
+        const auto& r = memory.registers;
+        return unit_of(Vec3b(r[registers[0]], r[registers[1]], r[registers[2]]), otherwise);
     };
     const Vec3b smooth = batch.point.frame.z;
     // A normal of no length, or of no number, leaves the surface's own; such a tangent any.
@@ -121,6 +124,12 @@ ArrivalBatch make_arrivals(const Scene& scene, std::span<const Arrival* const> a
         set_shading_normal(batch.point, turned, wo, reflects);
     }
     if (shader.tangent) set_tangent(batch.point, unit(*shader.tangent, batch.point.frame.x));
+    const Vec3b none(Batch(0.0f));
+    turn_normals(batch.material, [&](const Vec3b& normal) {
+        const Vec3b turned_to = unit_of(normal, none);
+        const Vec3b reflecting = reflecting_normal(batch.point.normal_geometric, wo, turned_to);
+        return select(dot(turned_to, turned_to) > Batch(0.0f), batch.point.frame.to_local(reflecting), none);
+    });
     if (!shader.normal) return batch;
     batch.bump.normal = batch.point.frame.to_local(turned);
     if (shader.normal_is_own) return batch;

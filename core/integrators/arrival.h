@@ -21,6 +21,19 @@ struct ArrivalOf {
 
 using Arrival = ArrivalOf<float>;
 
+/// What a ray of a kind meets, as a Visibility: rays through a surface are of one kind, however they left it.
+inline WordBatch met_by(const WordBatch& ray_kind) {
+    const WordBatch through = ray_kind & WordBatch(transmission_ray), no(0u);
+    return select(equal(through, no), ray_kind & WordBatch(camera_ray | diffuse_ray | glossy_ray), through);
+}
+inline std::uint32_t met_by(std::uint32_t ray_kind) {
+    return ray_kind & transmission_ray ? std::uint32_t{transmission_ray}
+                                       : ray_kind & (camera_ray | diffuse_ray | glossy_ray);
+}
+static_assert(std::uint32_t{visible_to_camera} == camera_ray && std::uint32_t{visible_to_diffuse} == diffuse_ray &&
+              std::uint32_t{visible_to_glossy} == glossy_ray &&
+              std::uint32_t{visible_to_transmission} == transmission_ray);
+
 /// A batch of arrivals: the surfaces, and what they are made of there. Lanes past the last arrival repeat it.
 struct ArrivalBatch {
     SurfacePointOf<Batch> point;

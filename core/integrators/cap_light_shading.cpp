@@ -65,6 +65,17 @@ Batch integrate_ltc(const SurfaceBatch& batch, const Cap<Batch>& cap) {
     return load(integral);
 }
 
+/// Relative, of taking F82's weight at the mean s of Schlick's: its second derivative by s, times half the variance of
+/// s over microfacets as rough as these; of rough ones a light picks some.
+float error_of_f82(const Base& surface, const LobeSums<float>& sums, const Rgb& reflected) {
+    const float s = std::clamp(sums.schlick / std::max(sums.plain, tiny<float>), 1e-6f, 1.0f);
+    const float bend = std::abs(0.24f * std::pow(s, -0.8f) - 0.56f * std::pow(s, -0.6f));
+    const float m = std::pow(s, 0.2f), sin2_oh = 1.0f - sqr(1.0f - m);
+    const float variance = sqr(5.0f * sqr(sqr(m))) * sin2_oh * sqr(0.5f * std::min(surface.alpha, 0.25f));
+    const float off = 0.5f * bend * variance * sums.plain * mean_component(surface.fresnel.conductor_dip);
+    return off / std::max(mean_component(reflected), tiny<float>);
+}
+
 }  // namespace
 
 void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, const Rgb& radiance,
@@ -76,10 +87,10 @@ void put_glossy(const SurfaceBatch& batch, const LobeIntegral<Batch>& integral, 
         const Base& surface = batch.lanes[i]->surface;
         reflection.method[i] = static_cast<Method>(method[i]);
         if (!surface.has_glossy()) continue;
-        const LobeFresnel& f = surface.fresnel;
-        reflection.glossy[i] =
-            radiance * (f.schlick_f0 * plain[i] + (f.schlick_f90 - f.schlick_f0) * schlick[i] +
-                        f.dielectric_f0 * plain[i] + (f.dielectric_f90 - f.dielectric_f0) * dielectric[i]);
+        const LobeSums<float> sums{plain[i], schlick[i], dielectric[i]};
+        const Rgb reflected = reflected_by(surface.fresnel, sums);
+        reflection.glossy[i] = radiance * reflected;
+        if (surface.fresnel.has_dip()) reflection.glossy_error[i] += error_of_f82(surface, sums, reflected);
     }
 }
 

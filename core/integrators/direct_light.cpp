@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
 
 namespace pivot {
@@ -36,7 +37,7 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
 }
 
 /// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces that
-/// have more lobes than these know, are sampled one by one.
+/// have lobes unlike a base's, are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, std::uint32_t bounce,
                                    const VertexBatch& vertices, const LightPicks& picks, std::uint32_t dimension,
                                    SharedLamps& shared_lamps) {
@@ -53,7 +54,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
         if (picks.light[i] < lamp_count) shared_lamps.add(i, {picks.light[i], picks.expected_samples[i]});
     };
     const auto sample_kind = [&](const BatchMask& is_kind, const auto& sample_lanes) {
-        const BatchMask chosen = left && is_kind && !vertices.surface.has_lobes();
+        const BatchMask chosen = left && is_kind && is_like_base(vertices.surface);
         if (!any(chosen)) return;
         std::array<const Light*, batch_size> of_kind = lights;
         if (any(!chosen)) {
@@ -169,26 +170,31 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
             .reach_m = std::numeric_limits<Batch>::infinity()};
 }
 
-/// Calls visit(LightSampleOf<Batch>, shadow rays) with each round of the vertices' light samples.
+/// Calls visit(LightSampleOf<Batch>, shadow rays, BatchMask) with each round of the vertices' light samples; the mask:
+/// whose light comes through what is in its way.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                      const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
-    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples) {
+    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples, const BatchMask& is_open) {
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
-        visit(samples, RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
-                                    .direction = samples.wi,
-                                    .near_m = Batch(0.0f),
-                                    .far_m = select(adds, samples.reach_m, Batch(0.0f))});
+        visit(samples,
+              RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
+                           .direction = samples.wi,
+                           .near_m = Batch(0.0f),
+                           .far_m = select(adds, samples.reach_m, Batch(0.0f))},
+              is_open);
     };
+    const BatchMask none(false);
     if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers));
+        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none);
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         LightSampleOf<Batch> samples = sample_lights(scene, strategy, plan.bounce, vertices, picks[k],
                                                      plan.dimensions.light_place(place), shared_lamps);
         if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
-        visit_with_rays(samples);
+        visit_with_rays(samples,
+                        scene.has_light_rules() ? obey_rules(scene, plan.bounce, vertices, picks[k], samples) : none);
     }
 }
 
@@ -196,17 +202,27 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                    const VertexLights& lights, SharedLamps& shared_lamps, const ShadowPath& shadow_path,
-                   ProgramMemory& memory) {
-    Vec3b radiance(Batch(0.0f));
+                   ProgramMemory& memory, LightSharesOf<Batch>* shares) {
+    const Batch zero(0.0f);
+    const Vec3b black(zero);
+    Vec3b radiance(black);
+    const auto add = [&](const Vec3b& light, const Vec3b& wi) {
+        radiance += light;
+        if (!shares) return;
+        const auto of_sample = light_shares(vertices.surface, vertices.point.frame.to_local(wi));
+        shares->diffuse += light * of_sample.diffuse;
+        shares->glossy += light * of_sample.glossy;
+    };
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
-                        const Batch visible = scene.visibility(rays), zero(0.0f);
-                        // Where no ray is, there is nothing to add.
-                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, Vec3b(zero));
-                        if (!scene.has_transparency() && scene.media().is_empty()) {
-                            radiance += light;
-                            return;
+                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& all_rays, const BatchMask& is_open) {
+                        RayOf<Batch> rays = all_rays;
+                        if (any(is_open)) {
+                            add(select(is_open && rays.far_m > zero, samples.radiance, black), samples.wi);
+                            rays.far_m = select(is_open, zero, rays.far_m);
                         }
+                        const Batch visible = scene.visibility(rays);
+                        // Where no ray is, there is nothing to add.
+                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, black);
                         RayOf<Batch> seen = rays;
                         seen.far_m = select(visible > zero, rays.far_m, zero);
                         if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);
@@ -214,8 +230,16 @@ Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan&
                             light = light * transmittance(scene.media(), seen,
                                                           stream_seed(vertices.sampler, plan.dimensions.base));
                         }
-                        radiance += light;
+                        add(light, samples.wi);
                     });
+    if (!shares) return radiance;
+    const auto share_of = [&](const Vec3b& part) {
+        const auto of = [&](const Batch& x, const Batch& all) {
+            return select(all != zero, x / select(all != zero, all, Batch(1.0f)), zero);
+        };
+        return Vec3b(of(part.x, radiance.x), of(part.y, radiance.y), of(part.z, radiance.z));
+    };
+    *shares = {share_of(shares->diffuse), share_of(shares->glossy)};
     return radiance;
 }
 
@@ -224,7 +248,7 @@ std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling stra
                                           SharedLamps& shared_lamps, ProgramMemory& memory) {
     std::vector<LightSample> result;
     for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays) {
+                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays, const BatchMask&) {
                         const Lanes far_m = store(rays.far_m);
                         const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
                         for (std::size_t i = 0; i < batch_size; ++i)

@@ -1,6 +1,7 @@
 // Light samples: a batch of paths' vertices, one light for each lane, and the rays that decide.
 #pragma once
 
+#include "core/bsdf/surface_parts.h"
 #include "core/integrators/arrival.h"
 #include "core/integrators/light_lanes.h"
 #include "core/integrators/passage.h"
@@ -34,9 +35,10 @@ class SharedLamps {
 };
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
+/// shares: by which reflection; may be null.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                    const VertexLights& lights, SharedLamps& shared, const ShadowPath& shadow_path,
-                   ProgramMemory& memory);
+                   ProgramMemory& memory, LightSharesOf<Batch>* shares = nullptr);
 
 /// The light samples that direct_light traces, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,

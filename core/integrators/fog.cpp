@@ -24,7 +24,10 @@ Rgb Fog::cross(const Ray& ray, std::uint32_t bounce, const Path& path, std::uint
     if (const Rgb emitted = ray_.emitted(); max_component(abs(emitted)) > 0.0f) {
         const Rgb light = bounded(work_.settings, bounce, path.throughput * emitted);
         add_radiance(bounce, light, work_.samples[path.sample]);
-        if (bounce == 0) work_.samples[path.sample].emission += light;
+        if (bounce == 0)
+            work_.samples[path.sample].emission += light;
+        else
+            add_to_passes(work_, bounce - 1, path.sample, light);
     }
     const std::uint32_t last = work_.settings.max_bounces;
     if (!ray_.scatters() || bounce > last) return ray_.through();
@@ -124,6 +127,12 @@ Rgb Fog::sample_collision_evenly(std::uint32_t bounce, const Path& path, std::op
     return onwards;
 }
 
+bool Fog::is_lit_by(std::size_t light, std::uint32_t bounce) const {
+    if (!work_.scene.has_light_rules()) return true;
+    const LightRules& rules = work_.scene.rules_of(light);
+    return (rules.lights & visible_to_scatter) && bounce <= rules.max_bounces;
+}
+
 void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     const Scene& scene = work_.scene;
     const LightSampling strategy = work_.settings.light_sampling;
@@ -153,7 +162,7 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
         choose_light(scene.triangle_tree(), vertex.position, sampler.point(dimensions.triangle_choice()).x);
     const std::size_t place = scene.lamps().size() + index;
     // What shines by its program is left to the phase function.
-    if (!(probability > 0.0f) || scene.varying_triangle(place)) return;
+    if (!(probability > 0.0f) || scene.varying_triangle(place) || !is_lit_by(place, bounce)) return;
     const auto& light = std::get<AreaLight>(scene.light(place));
     if (const auto point = sample_light(light, vertex.position, sampler.point(dimensions.triangle_place())))
         add(point->wi,
@@ -200,16 +209,16 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
         pdf_omega.push_back(eval(vertex.phase, vertex.direction, rays.back().direction));
     }
     std::vector<std::optional<RayHit>> hits(rays.size());
-    work_.scene.intersect(rays, visible_to_light, hits);
+    work_.scene.intersect(rays, visible_to_scatter, hits);
     std::vector<Passage> passages;
     if (work_.scene.has_transparency()) {
         std::vector<StraightRay> straight;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const float spread = vertices[i].spread + spread_of_sample(work_.settings, pdf_omega[i]);
-            straight.push_back({rays[i], hits[i], diffuse_ray, vertices[i].footprint_m, spread});
+            straight.push_back({rays[i], hits[i], visible_to_scatter, diffuse_ray, vertices[i].footprint_m, spread});
         }
         const auto sample_of = [&](std::size_t i) { return vertices[i].sample; };
-        passages = find_passages(work_.scene, work_.settings.max_path_passages, straight, visible_to_light, bounce + 1,
+        passages = find_passages(work_.scene, work_.settings.max_path_passages, straight, bounce + 1,
                                  chosen_by(work_.samplers, bounce + 1, never_two, sample_of), work_.memory);
     }
     const std::vector<WayOn> ways = ways_on(passages, hits);
@@ -241,7 +250,10 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
 void Fog::add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light) {
     const Rgb added = bounded(work_.settings, bounce, light);
     add_radiance(bounce, added, work_.samples[sample]);
-    if (bounce == 0) work_.samples[sample].volume_direct += added;
+    if (bounce == 0)
+        work_.samples[sample].volume_direct += added;
+    else
+        add_to_passes(work_, bounce, sample, added);
 }
 
 void Fog::finish() {
@@ -251,7 +263,9 @@ void Fog::finish() {
     light_along(work_.scene, work_.settings.max_passages, rays, left, work_.memory);
     for (std::size_t i = 0; i < shadows_.size(); ++i) {
         const Shadow& shadow = shadows_[i];
-        if (max_component(left[i]) > 0.0f)
+        if (shadow.is_open)
+            add_light(shadow.bounce, shadow.sample, shadow.light);
+        else if (max_component(left[i]) > 0.0f)
             add_light(shadow.bounce, shadow.sample,
                       shadow.light * left[i] * transmittance(shadow.ray, shadow.sample, shadow.dimension));
     }

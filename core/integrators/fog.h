@@ -78,6 +78,7 @@ class Fog {
         Ray ray;
         Rgb light;
         std::uint32_t bounce, sample, dimension;
+        bool is_open = false;  ///< whatever is in its way
     };
 
     // fog_lamp_samples.cpp
@@ -91,6 +92,8 @@ class Fog {
     /// At a place of the ray that mix_ is of.
     void sample_place(const Candidate& candidate, float distance_m, float weight, const Vec2f& u, std::uint32_t bounce,
                       const Path& path, std::uint32_t dimension);
+    std::size_t place_of(const Light& lamp) const;
+    bool casts_shadows(const Light& lamp) const;
     std::pair<std::size_t, float> choose_lamp(float u, float u_place);
     // fog.cpp
     Rgb sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream);
@@ -98,6 +101,8 @@ class Fog {
     void sample_shining(const FogVertex& vertex, std::uint32_t bounce);
     Rgb shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& ray, const std::optional<RayHit>& hit,
                     float pdf_omega);
+    /// Whether a light, by its place, is there for what scatters at a bounce.
+    bool is_lit_by(std::size_t light, std::uint32_t bounce) const;
     void add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light);
 
     const Work& work_;

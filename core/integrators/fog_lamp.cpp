@@ -122,8 +122,13 @@ Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& pos
     for (std::size_t i = 0; i < cells.columns * cells.rows; ++i) {
         const float u = static_cast<float>(i % cells.columns) * width,
                     v = static_cast<float>(i / cells.columns) * height;
-        const SeenCell<Batch> seen =
+        SeenCell<Batch> seen =
             see_cell<Batch>(light, position, {Batch(u), Batch(v)}, {Batch(u + width), Batch(v + height)});
+        if (light.inverse_tan_spread > 0.0f) {
+            const Batch cosine = -dot(seen.wi, broadcast(light.normal));
+            seen.solid_angle *= max(spread_falloff(Batch(light.inverse_tan_spread), cosine),
+                                    Batch(precisely ? 0.0f : 0.02f));  // what is sampled by it is nowhere nothing
+        }
         const Vec3b direction = broadcast(part.ray.ray().direction);
         // As a cap of that solid angle a cell is as wide as it is, which matters to a sharp phase function.
         if (precisely)

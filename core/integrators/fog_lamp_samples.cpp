@@ -119,12 +119,15 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
                             .direction = wi,
                             .near_m = zero,
                             .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero)};
-    const Batch seen = select(is_usable, work_.scene.visibility(rays) * eval(phase, direction, wi) / pdf, zero);
+    const bool casts = casts_shadows(*candidate.lamp);
+    const Batch visible = casts ? work_.scene.visibility(rays) : Batch(1.0f);
+    const Batch seen = select(is_usable, visible * eval(phase, direction, wi) / pdf, zero);
     if (!any(seen > zero)) return;
-    Vec3b left =
-        transmittance_over(mix_.sigma_t, at.distance_m - Batch(interval.near_m)) *
-        pivot::transmittance(work_.scene.media(), rays, WordBatch(stream_seed(sampler, dimension)) + WordBatch(first));
-    if (work_.scene.has_transparency()) {
+    Vec3b left = transmittance_over(mix_.sigma_t, at.distance_m - Batch(interval.near_m));
+    if (casts)
+        left = left * pivot::transmittance(work_.scene.media(), rays,
+                                           WordBatch(stream_seed(sampler, dimension)) + WordBatch(first));
+    if (casts && work_.scene.has_transparency()) {
         RayOf<Batch> open = rays;
         open.far_m = select(seen > zero, rays.far_m, zero);
         const ShadowPath shadow_path{work_.settings.max_passages, bounce, WordBatch(camera_ray)};
@@ -156,7 +159,8 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
                             .light = worth * mix_.scattered(direction, point.wi) * point.radiance / pdf,
                             .bounce = bounce,
                             .sample = path.sample,
-                            .dimension = dimension});
+                            .dimension = dimension,
+                            .is_open = !casts_shadows(*candidate.lamp)});
     };
     const bool shares = lamp.shares_with_phase();
     const auto phase_pdf = [&](const Vec3f& wi) { return mix_.pdf_omega(direction, wi); };
@@ -166,6 +170,14 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
     const Vec3f wi = sample(mix_.choose(u.y).phase, direction, {wrap(u_phase.x + u.x), u_phase.y});
     if (const auto point = intersect_light(*candidate.lamp, position, wi))
         add(*point, lamp.pdf_omega(*point) + phase_pdf(wi));
+}
+
+std::size_t Fog::place_of(const Light& lamp) const {
+    return static_cast<std::size_t>(&lamp - work_.scene.lamps().data());
+}
+
+bool Fog::casts_shadows(const Light& lamp) const {
+    return !work_.scene.has_light_rules() || work_.scene.rules_of(place_of(lamp)).casts_shadows;
 }
 
 std::pair<std::size_t, float> Fog::choose_lamp(float u, float u_place) {
@@ -187,7 +199,8 @@ void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
     const std::span<const Light> lamps = work_.scene.lamps();
     candidates_.clear();
     if (lamps.size() <= max_lamp_samples) {
-        for (const Light& lamp : lamps) add_candidates(lamp, path);
+        for (const Light& lamp : lamps)
+            if (is_lit_by(place_of(lamp), bounce)) add_candidates(lamp, path);
         if (candidates_.empty()) return;
         if (bounce > 0) return sample_candidates(candidates_, bounce, path, 1.0f, 0, 1);
         // A camera's ray samples each lamp, by what it scatters of it.
@@ -198,7 +211,7 @@ void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
             for (end = first; end < candidates_.size() && candidates_[end].lamp == candidates_[first].lamp; ++end)
                 sum += candidates_[end].table.sum();
             const auto count = static_cast<std::uint32_t>(std::ceil(places_of_camera_ray * sum / total));
-            const auto lamp = static_cast<std::uint32_t>(candidates_[first].lamp - lamps.data());
+            const auto lamp = static_cast<std::uint32_t>(place_of(*candidates_[first].lamp));
             sample_candidates(std::span(candidates_).subspan(first, end - first), bounce, path, 1.0f, lamp, count);
         }
         return;
@@ -208,7 +221,7 @@ void Fog::sample_lamps(std::uint32_t bounce, const Path& path) {
     for (std::uint32_t k = 0; k < count; ++k) {
         const auto [lamp, probability] = choose_lamp((static_cast<float>(k) + u.x) / static_cast<float>(count),
                                                      wrap(u.y + 0.618034f * static_cast<float>(k)));
-        if (!(probability > 0.0f)) continue;
+        if (!(probability > 0.0f) || !is_lit_by(lamp, bounce)) continue;
         candidates_.clear();
         add_candidates(lamps[lamp], path);
         if (candidates_.empty()) continue;

@@ -17,12 +17,17 @@ struct JointSurface {
     T fresnel_f0, fresnel_f90;  // both 0: no glossy lobe
 };
 
+/// Of the base and of lobes that are about as even as Lambert's, which are found with that.
 template <class T>
 JointSurface<T> joint_surface(const SurfaceOf<T>& surface) {
     const LobeFresnelOf<T>& f = surface.fresnel;
+    T diffuse = mean_component(surface.diffuse);
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (DiffuseLobe<L>) diffuse += select(is_kind, mean_component(lobe.albedo(surface.wo_local)), T(0));
+    });
     return {.wo_local = surface.wo_local,
             .alpha = surface.alpha,
-            .diffuse = mean_component(surface.diffuse),
+            .diffuse = diffuse,
             .fresnel_f0 = mean_component(f.schlick_f0 + f.dielectric_f0),
             .fresnel_f90 = mean_component(f.schlick_f90 + f.dielectric_f90)};
 }

@@ -82,6 +82,9 @@ LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<cons
     // What is sampled is the cosine from the frame's normal.
     const Batch bumped = surface.bump.cosine(s.wi_local) / max(s.wi_local.z, Batch(1e-4f));
     Vec3b reflected = surface.diffuse * (s.diffuse * bumped);
+    if (any(surface.has_lobes()))
+        reflected +=
+            eval_diffuse_lobes(surface, s.wi_local) * (pi<Batch> * s.diffuse / max(s.wi_local.z, Batch(1e-4f)));
     if (any(surface.has_glossy())) reflected += surface.fresnel.at(cos_oh) * s.glossy;
     Batch distance = distance_to_sphere(to_center, light.radius_m, wi);
     if (any(is_disk)) distance = select(is_disk, distance_to_facing_disk(to_center, wi), distance);
@@ -124,6 +127,8 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     lit.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
     const Vec3b above(seen.wi.x, seen.wi.y, max(seen.wi.z, Batch(1e-6f)));
     lit.sample.radiance = eval(surface, above) * light.radiance * select(faces, seen.omega_per_xy / pdf_xy, zero);
+    if (any(light.inverse_tan_spread > zero))
+        lit.sample.radiance = lit.sample.radiance * spread_falloff(light.inverse_tan_spread, cosine);
     return lit;
 }
 

@@ -11,12 +11,14 @@ constexpr float below_one = 1.0f - 0x1p-24f;
 /// The diffuse lobes as one, and the strongest of the highlights.
 JointSurface<float> joint_surface_of_all(const Surface& surface) {
     JointSurface<float> joint = joint_surface(surface);
-    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
-        Surface alone(lobe.closed_form(surface.wo_local));
-        const JointSurface<float> other = joint_surface(alone);
-        const float diffuse = joint.diffuse + other.diffuse;
-        if (other.fresnel_f0 + other.fresnel_f90 > joint.fresnel_f0 + joint.fresnel_f90) joint = other;
-        joint.diffuse = diffuse;
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
+        if constexpr (!DiffuseLobe<L>) {
+            Surface alone(lobe.closed_form(surface.wo_local));
+            const JointSurface<float> other = joint_surface(alone);
+            const float diffuse = joint.diffuse + other.diffuse;
+            if (other.fresnel_f0 + other.fresnel_f90 > joint.fresnel_f0 + joint.fresnel_f90) joint = other;
+            joint.diffuse = diffuse;
+        }
     });
     return joint;
 }
@@ -35,14 +37,16 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     const auto* area = std::get_if<AreaLight>(&light);
     if (area && strategy == LightSampling::joint && !transmits) {
         const AreaView<float> view = view_from(numbers_of(*area), point);
+        const JointSurface<float> whole = joint_surface_of_all(surface);
         if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
         else if (!is_even_enough(view))
-            area_.emplace(joint_surface_of_all(surface), view);
+            area_.emplace(whole, view);
         const Highlights highlights = highlights_of(surface);
-        const bool is_as_of_base =
-            !has_lobes || (!surface.has_glossy() && highlights.is_one_of_a_base() && highlights.are_close);
-        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, joint_surface(surface));
+        const bool has_one_highlight =
+            highlights.is_empty() || (!surface.has_glossy() && highlights.is_one_of_a_base());
+        const bool is_as_of_base = is_like_base(surface) || (has_one_highlight && highlights.are_close);
+        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, whole);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
@@ -153,7 +157,11 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
         const auto [at, pdf] = area_->sample(u);
         const SeenPlace<float> seen = see(area_->light(), at);
         if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
-        return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, std::get<AreaLight>(light_).radiance,
+        const auto& light = std::get<AreaLight>(light_);
+        const float falloff = light.inverse_tan_spread > 0.0f
+                                  ? spread_falloff(light.inverse_tan_spread, -dot(seen.wi, area_->light().normal))
+                                  : 1.0f;
+        return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, light.radiance * falloff,
                           pdf / seen.omega_per_xy};
     }
     if (!cap_) return sample_light(light_, point_.position, u);

@@ -3,6 +3,7 @@
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
 #include "core/shading/method.h"
 
@@ -84,7 +85,8 @@ Seen look(const Scene& scene, std::uint32_t max_passages, const SurfacePoint& po
 }  // namespace
 
 LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                             const Light& light, const SurfacePoint& point, const Surface& lobe) {
+                             const Light& light, const LightRules& rules, const SurfacePoint& point,
+                             const Surface& lobe) {
     const LightSampler sampler(light, point, lobe, LightSampling::joint);
     const float budget = 0.01f * settings.error_budget_percent;
     const PointCounts& counts = sampler.shares_with_bsdf() ? sought : followed;
@@ -108,11 +110,12 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         const float spread = sampler.shares_with_bsdf() ? std::sqrt(squares) : 0.0f;
         result.error = sum > 0.0f ? std::max(std::abs(halves[0] - halves[1]), spread) / sum : 0.0f;
         const auto n = static_cast<float>(count);
-        for (WeightedPoint& p : all) p.value /= n;
+        for (WeightedPoint& p : all) p.value *= lit_share(rules, lobe, point.frame.to_local(p.wi)) / n;
         if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
     }
-    const Seen seen = look(scene, settings.max_passages, point, all, settings.occlusion == Occlusion::ray_traced);
-    result.radiance = seen.radiance * seen.through;
+    const bool traces_rays = settings.occlusion == Occlusion::ray_traced && rules.casts_shadows;
+    const Seen seen = look(scene, settings.max_passages, point, all, traces_rays);
+    result.radiance = seen.radiance * (rules.casts_shadows ? seen.through : Rgb(1.0f));
     result.shadow_variance = seen.variance();
     return result;
 }

@@ -16,7 +16,8 @@ struct LobeReflection {
 
 /// lobe: a surface of that lobe alone.
 LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                             const Light& light, const SurfacePoint& point, const Surface& lobe);
+                             const Light& light, const LightRules& rules, const SurfacePoint& point,
+                             const Surface& lobe);
 
 /// The same of the world, where it is one colour all around.
 LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,

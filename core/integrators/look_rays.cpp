@@ -19,7 +19,7 @@ void look(const LookedAt& from, const FacetRayOf<float>& facet, bool is_smooth, 
                     .ray_kind = (is_refracted ? transmission_ray : glossy_ray) | (from.arrival.ray_kind & ~ray_kinds),
                     .footprint_m = from.arrival.footprint_m,
                     .spread = from.spread,
-                    .meets_lamps = meets_lamps,
+                    .meets_lamps = meets_lamps && is_smooth && !from.is_spread,
                     .is_spread = from.is_spread || !is_smooth});
 }
 

@@ -2,7 +2,8 @@
 // through glass, where closed forms of lights show lamps and virtual lights and leave out what else is to be seen.
 //
 // A mirror's ray is one of the few that its lobe spreads to; a rough boundary's likewise, which shows as many images of
-// what is behind it as the pixel has samples. The places are fixed, the same for every pixel and on every run.
+// what is behind it as the pixel has samples: not of lamps, which would each be seen. The places are fixed, the same
+// for every pixel and on every run.
 #pragma once
 
 #include <span>
@@ -20,7 +21,7 @@ struct LookRay {
     Rgb worth{1.0f};     ///< of the light along it
     std::uint32_t ray_kind = camera_ray;
     float footprint_m = 0.0f, spread;  ///< how wide its part of a pixel is at the origin, and how much more for each m
-    bool meets_lamps = false;          ///< whether no closed form shows them
+    bool meets_lamps = false;          ///< where no closed form shows them and they are seen whole
     bool is_spread = false;            ///< whether a rough boundary might have sent it elsewhere
 };
 

@@ -5,6 +5,7 @@
 #include "core/integrators/direct_light.h"
 #include "core/integrators/fog.h"
 #include "core/integrators/light_sampler.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/straight_paths.h"
 
 namespace pivot {
@@ -40,12 +41,14 @@ Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const 
         const Light& lamp = work.scene.light(index);
         const auto place = intersect_light(lamp, vertex.point.position, wi);
         // A sun is met where the ray leaves the scene: infinity against infinity.
-        if (!place || place->distance_m > distance_m) continue;
+        const LightRules rules = work.scene.has_light_rules() ? work.scene.rules_of(index) : LightRules{};
+        if (!place || bounce > rules.max_bounces || (rules.casts_shadows && place->distance_m > distance_m)) continue;
         Rgb light = place->radiance *
                     (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
                      expected);
-        if (!way.passages.empty()) light *= way.worth_from(place->distance_m);
-        if (fog)
+        light *= lit_share(rules, vertex.surface, vertex.point.frame.to_local(wi));
+        if (!way.passages.empty() && rules.casts_shadows) light *= way.worth_from(place->distance_m);
+        if (fog && rules.casts_shadows)
             light *=
                 fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
                                    sample, static_cast<std::uint32_t>(index));
@@ -133,8 +136,19 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
 void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, const Vec3b& unbounded) {
     const Vec3b light = bounded(work.settings, bounce, unbounded);
     const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        const Rgb added(r[i], g[i], b[i]);
+        add_radiance(bounce, added, work.samples[batch.paths[i].sample]);
+        add_to_passes(work, bounce, batch.paths[i].sample, added);
+    }
+}
+
+/// Notes by what the paths' first vertices reflect what is added next.
+void set_pass_shares(const Work& work, const PathBatch& batch, const LightSharesOf<Batch>& shares) {
+    const auto each = unpack<LightSharesOf>(shares);
     for (std::size_t i = 0; i < batch.paths.size(); ++i)
-        add_radiance(bounce, Rgb(r[i], g[i], b[i]), work.samples[batch.paths[i].sample]);
+        if (const std::uint32_t sample = batch.paths[i].sample; sample < work.passes.size())
+            work.pass_shares[sample] = each[i];
 }
 
 /// A BSDF sample of each path: its ray, and what the path is worth along it.
@@ -173,7 +187,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
 void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& batch, const Scattered& scattered,
             const VertexLights& lights, const SharedLamps& shared, Paths& next) {
     const Scene& scene = work.scene;
-    RayHitOf<Batch> hit = scene.intersect(scattered.rays, visible_to_light);
+    RayHitOf<Batch> hit = scene.intersect(scattered.rays, met_by(scattered.ray_kind));
     WordBatch ray_kind = scattered.ray_kind | (batch.lanes.arrival.ray_kind & WordBatch(~ray_kinds));
     const Batch spread = batch.lanes.spread + spread_of_sample(work.settings, scattered.pdf_omega);
     BatchWays straight;
@@ -272,9 +286,12 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
     const ShadowPath shadow_path{work.settings.max_passages, bounce, batch.lanes.arrival.ray_kind};
-    add_light(work, bounce, batch,
-              batch.lanes.throughput * direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices,
-                                                    lights, shared, shadow_path, work.memory));
+    const bool tells_shares = bounce == 0 && !work.passes.empty();
+    LightSharesOf<Batch> shares;
+    const Vec3b direct = direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, lights, shared,
+                                      shadow_path, work.memory, tells_shares ? &shares : nullptr);
+    if (tells_shares) set_pass_shares(work, batch, shares);
+    add_light(work, bounce, batch, batch.lanes.throughput * direct);
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
     if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
@@ -282,6 +299,10 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
             is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
     if (!any(is_wanted)) return count;
     const Scattered scattered = scatter(plan, batch, is_wanted);
+    if (tells_shares)
+        set_pass_shares(
+            work, batch,
+            light_shares(batch.vertices.surface, batch.vertices.point.frame.to_local(scattered.rays.direction)));
     if (any(scattered.goes_on)) follow(work, fog, bounce, batch, scattered, lights, shared, next);
     return count;
 }
@@ -289,7 +310,7 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
 }  // namespace
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                 std::span<const Sampler> samplers, std::span<Sample> samples) {
+                 std::span<const Sampler> samplers, std::span<Sample> samples, std::span<SurfacePasses> passes) {
     // Where there are media, paths that first scatter in them have samples of their own behind the others.
     const bool has_media = !scene.media().is_empty();
     const std::size_t count = samples.size();
@@ -303,12 +324,15 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     ProgramMemory memory;
     std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? (has_media ? 2 : 1) * count : 0,
                                      std::numeric_limits<float>::infinity());
+    std::vector<PassShares> pass_shares(passes.size());
     const Work work{scene,
                     settings,
                     has_media ? std::span<const Sampler>(own_samplers) : samplers,
                     has_media ? std::span<Sample>(own_samples) : samples,
                     memory,
-                    min_pdf_omega};
+                    min_pdf_omega,
+                    passes,
+                    pass_shares};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;

@@ -82,8 +82,8 @@ std::uint32_t passed_by(std::uint32_t ray_kind) { return ray_kind / passed_one; 
 }  // namespace
 
 std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
-                                   std::span<const StraightRay> rays, Visibility from, std::uint32_t bounce,
-                                   const PassageChoice& choice, ProgramMemory& memory) {
+                                   std::span<const StraightRay> rays, std::uint32_t bounce, const PassageChoice& choice,
+                                   ProgramMemory& memory) {
     std::vector<Passage> passages;
     std::vector<Going> going;
     for (std::uint32_t i = 0; i < rays.size(); ++i)
@@ -117,6 +117,7 @@ std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_pa
             choose(found[k], choice, going[asked[k]], passages[first + asked[k]]);
         std::vector<Going> further;
         std::vector<Ray> onwards;
+        std::vector<std::uint32_t> met_by;
         for (std::size_t k = 0; k < going.size(); ++k) {
             const Passage& passage = passages[first + k];
             if (passage.ends()) continue;
@@ -127,9 +128,10 @@ std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_pa
             Ray ray = rays[passage.ray].ray;
             ray.near_m = behind(passage.hit.distance_m);
             onwards.push_back(ray);
+            met_by.push_back(rays[passage.ray].met_by);
         }
         std::vector<std::optional<RayHit>> hits(onwards.size());
-        scene.intersect(onwards, from, hits);
+        scene.intersect(onwards, met_by, hits);
         going.clear();
         for (std::size_t k = 0; k < further.size(); ++k) {
             if (!hits[k]) continue;

@@ -28,14 +28,16 @@ struct Passage {
 struct StraightRay {
     Ray ray;
     std::optional<RayHit> hit;
+    std::uint32_t met_by;  ///< as a Visibility
     std::uint32_t ray_kind;
     float footprint_m, spread;  ///< at the origin, and how much it grows for each m
 };
 
 inline std::vector<StraightRay> straight_rays(std::span<const Ray> camera_rays,
-                                              std::span<const std::optional<RayHit>> hits, float spread) {
+                                              std::span<const std::optional<RayHit>> hits, const PixelWidth& width) {
     std::vector<StraightRay> rays;
-    for (std::size_t i = 0; i < hits.size(); ++i) rays.push_back({camera_rays[i], hits[i], camera_ray, 0.0f, spread});
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        rays.push_back({camera_rays[i], hits[i], visible_to_camera, camera_ray, width.at(0.0f), width.per_m});
     return rays;
 }
 
@@ -54,8 +56,8 @@ struct PassageChoice {
 /// The surfaces on the rays' ways, by ray and then by distance: those that are passed, and one behind unless there is
 /// none. bounce: of what comes next.
 std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
-                                   std::span<const StraightRay> rays, Visibility from, std::uint32_t bounce,
-                                   const PassageChoice& choice, ProgramMemory& memory);
+                                   std::span<const StraightRay> rays, std::uint32_t bounce, const PassageChoice& choice,
+                                   ProgramMemory& memory);
 
 /// Those of one ray, the next; all: as found, less what was taken.
 std::span<const Passage> take_passages(std::span<const Passage>& all, std::size_t ray);

@@ -1,6 +1,7 @@
 // What the parts of the path tracer share: paths between bounces, and what all batches of a render's part work on.
 #pragma once
 
+#include "core/bsdf/surface_parts.h"
 #include "core/film/film.h"
 #include "core/integrators/arrival.h"
 #include "core/integrators/settings.h"
@@ -26,6 +27,9 @@ using Path = PathOf<float>;
 /// Paths that have reached the same bounce.
 using Paths = std::vector<Path>;
 
+/// By what the first vertex of a path reflects what comes by way of it: as much of it is diffuse and glossy.
+using PassShares = LightSharesOf<float>;
+
 /// What all batches of a render's part share.
 struct Work {
     const Scene& scene;
@@ -33,7 +37,9 @@ struct Work {
     std::span<const Sampler> samplers;
     std::span<Sample> samples;
     ProgramMemory& memory;
-    std::span<float> min_pdf_omega;  ///< of each path's BSDF samples so far; empty where nothing is blurred
+    std::span<float> min_pdf_omega;       ///< of each path's BSDF samples so far; empty where nothing is blurred
+    std::span<SurfacePasses> passes{};    ///< of each sample that first meets a surface; empty: nobody asks
+    std::span<PassShares> pass_shares{};  ///< likewise, of the path so far
 };
 
 /// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
@@ -55,6 +61,17 @@ Vec3<T> bounded(const RenderSettings& settings, std::uint32_t bounce, const Vec3
 inline void add_radiance(std::uint32_t bounce, const Rgb& light, Sample& sample) {
     sample.radiance += light;
     if (bounce > 0) sample.indirect += light;
+}
+
+/// Adds the same to what passes tell of the surface that the path first met.
+inline void add_to_passes(const Work& work, std::uint32_t bounce, std::uint32_t sample, const Rgb& light) {
+    if (sample >= work.passes.size()) return;
+    const PassShares& shares = work.pass_shares[sample];
+    const Rgb diffuse = shares.diffuse * light, glossy = shares.glossy * light;
+    SurfacePasses& passes = work.passes[sample];
+    (bounce == 0 ? passes.diffuse_direct : passes.diffuse_indirect) += diffuse;
+    (bounce == 0 ? passes.glossy_direct : passes.glossy_indirect) += glossy;
+    (bounce == 0 ? passes.transmission_direct : passes.transmission_indirect) += light - diffuse - glossy;
 }
 
 }  // namespace pivot

@@ -27,6 +27,7 @@ struct Photon {
     Ray ray;
     Rgb power_w;
     Sampler sampler;
+    std::uint32_t max_bounces = ~0u;  ///< of its light's rules
 };
 
 /// A sphere around all that photons may meet.
@@ -88,13 +89,15 @@ struct Emitter {
         }
         const Vec3f local = sample_cosine_hemisphere(u);
         const Vec3f direction = side * frame.to_world(local);
+        if (light.inverse_tan_spread > 0.0f) power *= spread_falloff(light.inverse_tan_spread, local.z);
         const Vec3f start = place_on(light, u_place) + light.normal * (side * surface_error_m(light));
         return {{start, direction}, power};
     }
 };
 
 float power_of(const Light& light, const Bounds& bounds) {
-    // A spot's power falls off from its axis: what its photons carry at most, for its share of them.
+    // A spot's power falls off from its axis, and that of a spread from the normal: what photons carry at most, for its
+    // share of them.
     const auto emission = std::visit(Emitter{bounds, Vec2f(0.5f), Vec2f(0.5f)}, light);
     return mean_component(abs(emission.power_w));
 }
@@ -123,7 +126,8 @@ std::vector<Photon> emit(const Scene& scene, std::uint32_t count) {
             const float share = 1.0f / static_cast<float>(own);
             if (i < light_count) {
                 const auto [ray, power] = std::visit(Emitter{bounds, u_direction, u_place}, scene.light(i));
-                photons.push_back({ray, power * share, sampler});
+                const std::uint32_t most = scene.has_light_rules() ? scene.rules_of(i).max_bounces : ~0u;
+                if (most > 0) photons.push_back({ray, power * share, sampler, most});
             } else {
                 const Vec3f from = sample(Cap<float>{Vec3f(0.0f, 0.0f, 1.0f), 2.0f}, u_direction);
                 photons.push_back({ray_from_far(bounds, from, u_place), world_power * share, sampler});
@@ -185,7 +189,7 @@ std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& poin
     const Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
     const bool is_open = point.faces(wi) || (surface.transmits() && point.faces(-wi));
     if (!carries_light(power) || !is_open) return std::nullopt;
-    return Photon{{point.ray_origin(wi), wi}, power, photon.sampler};
+    return Photon{{point.ray_origin(wi), wi}, power, photon.sampler, photon.max_bounces};
 }
 
 /// Has photons go straight on through transparent surfaces from what they first met: sets that to where they end.
@@ -193,12 +197,12 @@ void go_on(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
            ProgramMemory& memory, std::vector<std::optional<RayHit>>& hits) {
     std::vector<StraightRay> straight;
     for (std::size_t i = 0; i < photons.size(); ++i)
-        straight.push_back({photons[i].ray, hits[i], diffuse_ray, 0.0f, 0.0f});
+        straight.push_back({photons[i].ray, hits[i], visible_to_diffuse, diffuse_ray, 0.0f, 0.0f});
     const auto u = [&](std::size_t i, std::uint32_t passed) {
         return photons[i].sampler.point(passage_dimension(bounce, passed)).x;
     };
     const std::vector<Passage> passages =
-        find_passages(scene, max_path_passages, straight, visible_to_light, bounce + 1, {never_two, u}, memory);
+        find_passages(scene, max_path_passages, straight, bounce + 1, {never_two, u}, memory);
     const std::vector<WayOn> ways = ways_on(passages, hits);
     for (std::size_t i = 0; i < photons.size(); ++i) {
         hits[i] = ways[i].only_shines() ? std::nullopt : ways[i].hit;
@@ -214,7 +218,7 @@ void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
         std::vector<Ray> rays;
         for (const Photon& photon : photons) rays.push_back(photon.ray);
         std::vector<std::optional<RayHit>> hits(rays.size());
-        scene.intersect(rays, visible_to_light, hits);
+        scene.intersect(rays, visible_to_diffuse, hits);
         if (scene.has_transparency()) go_on(scene, max_path_passages, photons, bounce, memory, hits);
         std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the photon of each
         for (std::size_t i = 0; i < hits.size(); ++i)
@@ -240,7 +244,7 @@ void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
                 const std::uint32_t owner = rest[i]->hit.instance;
                 const CellSpace cells(scene.world_from_object(owner));
                 deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits);
-                if (bounce + 1 == bounces) continue;
+                if (bounce + 1 == std::min(bounces, photon.max_bounces)) continue;
                 if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
             }
             first += count;

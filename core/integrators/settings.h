@@ -30,6 +30,11 @@ enum class Indirect { none, virtual_lights };
 /// [Tokuyoshi24], or all by the formulas of [Tokuyoshi15]; the last two for comparison.
 enum class VirtualLightMethod { automatic, widened, anisotropic };
 
+/// Where a pass of mist is from 0 to 1, in m along rays from the camera, and by which power.
+struct Mist {
+    float start_m = 5.0f, depth_m = 25.0f, falloff = 2.0f;
+};
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -53,6 +58,10 @@ struct RenderSettings {
     float filter_width_px = 1.5f;
     bool transparent_film = false;
     bool denoising_passes = false;  ///< whether what a denoiser works on is kept
+    bool surface_passes = false;    ///< whether what passes tell of surfaces and their light is
+    bool mattes = false;            ///< whether what Cryptomatte's passes rank is
+    int uv_attribute = -1;          ///< that the pass shows; -1: none
+    Mist mist{};
 };
 
 /// What every pixel has at least: all, or the pilot of adaptive sampling, which needs more to be worth it.

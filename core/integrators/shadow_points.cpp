@@ -48,21 +48,33 @@ void ShadowRays::trace(const Scene& scene, std::uint32_t max_passages, const OnS
     std::vector<Rgb> left(rays_.size());
     light_along(scene, max_passages, rays_, left, memory_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        tell(probes_[i], left[i]);
+        tell(probes_[i], left[i] * probes_[i].left);
         if (on_seen && max_component(left[i]) > 0.0f) on_seen(rays_[i], probes_[i], left[i]);
     }
+    clear();
+}
+
+void ShadowRays::pass() {
+    for (const Probe& probe : probes_) tell(probe, Rgb(probe.left));
+    clear();
+}
+
+void ShadowRays::clear() {
     rays_.clear();
     probes_.clear();
 }
 
 void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
-                const AddPoints& add, const ShadowRays::OnSeen& on_seen) {
+                const AddPoints& add, const ShadowRays::OnSeen& on_seen, bool traces_rays) {
     std::array<bool, batch_size> wanted;
     wanted.fill(true);
     ShadowRays rays;
     for (PartOfPoints part{0.0f, first_part};; part = {part.end, std::min(2.0f * part.end, 1.0f)}) {
         add(part, wanted, rays);
-        rays.trace(scene, max_passages, on_seen);
+        if (traces_rays)
+            rays.trace(scene, max_passages, on_seen);
+        else
+            rays.pass();
         for (std::size_t i = 0; i < shares.size(); ++i) wanted[i] &= shares[i].wanted_part() > part.end;
         if (part.end >= 1.0f || std::none_of(wanted.begin(), wanted.begin() + shares.size(), std::identity())) return;
     }

@@ -50,7 +50,10 @@ struct VisibleShare {
     /// How many points of equal weight say as much.
     float count() const { return squares > 0.0f ? all * all / squares : 0.0f; }
     /// Variance of value() by evenly spread points, whose error falls like count^(-3/4) at an edge.
-    float variance() const { return is_mixed() ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f; }
+    float variance() const {
+        const bool says_much = is_mixed() && squares > 0.0f;  // which a light too weak for floats leaves 0
+        return says_much ? value() * (1.0f - value()) * std::pow(count(), -1.5f) : 0.0f;
+    }
 
    private:
     /// Exact where nothing or all is left.
@@ -115,6 +118,13 @@ class ShadowPoints {
         const float least_of_sample = std::min(0.125f * share / budget_, 4.0f);
         ShadowPoints points = for_share(share);
         points.pixel_count_ = std::max(points.pixel_count_, least_of_sample * static_cast<float>(samples_));
+        return points;
+    }
+
+    /// At least so many of each sample.
+    ShadowPoints at_least(std::uint32_t of_sample) const {
+        ShadowPoints points = *this;
+        points.pixel_count_ = std::max(points.pixel_count_, static_cast<float>(of_sample * samples_));
         return points;
     }
 
@@ -192,15 +202,19 @@ class ShadowRays {
         LaneShares* shares;
         float diffuse, glossy;  ///< weights
         float rim = 0.0f;
+        float left = 1.0f;  ///< of light from there if nothing is in its way
     };
     using OnSeen = std::function<void(const Ray&, const Probe&, const Rgb& left)>;
 
     void add(const Ray& ray, bool is_faced, const Probe& probe);
     /// on_seen: is told of the rays that nothing hides; may be empty.
     void trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen = {});
+    /// The same as if nothing were in their way.
+    void pass();
 
    private:
     static void tell(const Probe& probe, const Rgb& left);
+    void clear();
 
     std::vector<Ray> rays_;
     std::vector<Probe> probes_;
@@ -211,9 +225,9 @@ class ShadowRays {
 using AddPoints = std::function<void(const PartOfPoints&, std::span<const bool> wanted, ShadowRays& rays)>;
 
 /// Asks points for the share that each lane sees, until they are enough. first_part: asked in any case.
-/// shares: of at most batch_size lanes. max_passages: of ShadowPoints.
+/// shares: of at most batch_size lanes. max_passages: of ShadowPoints. traces_rays: else nothing is in their way.
 void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
-                const AddPoints& add, const ShadowRays::OnSeen& on_seen = {});
+                const AddPoints& add, const ShadowRays::OnSeen& on_seen = {}, bool traces_rays = true);
 
 /// What each lane reflects of a light towards the viewer, and how far off that may be.
 struct Reflection {

@@ -20,7 +20,7 @@ float alpha_of(const ShadingPoint& at) { return at.surface.has_glossy() ? at.sur
 float reach_m(const Scene& scene, const ShadingPoint& at) {
     const Camera& camera = scene.camera();
     const float distance_m = length(at.point.position - camera.world_from_camera.translation);
-    return pixels_of_samples * camera.pixel_spread() * distance_m / std::max(std::abs(at.surface.wo_local.z), 0.05f);
+    return pixels_of_samples * camera.pixel_width().at(distance_m) / std::max(std::abs(at.surface.wo_local.z), 0.05f);
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 
 namespace pivot {
 
+/// So many successive samples of a pixel share what is known of light that bounced.
+inline constexpr std::uint32_t bounced_samples_shared = 4;
+
 class SharedReflections {
    public:
     explicit SharedReflections(std::size_t pixel_count) : newest_(pixel_count, none) {}

@@ -8,18 +8,19 @@ std::vector<Passage> passages_of(const Scene& scene, const RenderSettings& setti
                                  ProgramMemory& memory) {
     std::vector<StraightRay> straight;
     for (std::size_t i = 0; i < rays.size(); ++i)
-        straight.push_back({rays[i].ray, hits[i], rays[i].ray_kind, rays[i].footprint_m, rays[i].spread});
-    return find_passages(scene, settings.max_path_passages, straight,
-                         bounce == 0 ? visible_to_camera : visible_to_light, bounce, {.least_part = 0.0f, .u = {}},
-                         memory);
+        straight.push_back(
+            {rays[i].ray, hits[i], met_by(rays[i].ray_kind), rays[i].ray_kind, rays[i].footprint_m, rays[i].spread});
+    return find_passages(scene, settings.max_path_passages, straight, bounce, {.least_part = 0.0f, .u = {}}, memory);
 }
 
-/// What a part of a ray meets of lamps.
-Rgb lamps_met(const Scene& scene, const LookRay& ray, float from_m, float to_m) {
+/// What a part of a ray, after so many bounces, meets of lamps.
+Rgb lamps_met(const Scene& scene, const LookRay& ray, std::uint32_t bounce, float from_m, float to_m) {
     Rgb radiance(0.0f);
     if (!ray.meets_lamps) return radiance;
-    for (const Light& lamp : scene.lamps()) {
-        const auto place = intersect_light(lamp, ray.ray.origin, ray.ray.direction);
+    for (std::size_t k = 0; k < scene.lamps().size(); ++k) {
+        const LightRules rules = scene.has_light_rules() ? scene.rules_of(k) : LightRules{};
+        if (!(rules.lights & met_by(ray.ray_kind)) || (bounce > 0 && bounce - 1 > rules.max_bounces)) continue;
+        const auto place = intersect_light(scene.light(k), ray.ray.origin, ray.ray.direction);
         if (place && place->distance_m >= from_m && !(place->distance_m > to_m)) radiance += place->radiance;
     }
     return radiance;
@@ -47,7 +48,11 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
                   .spread = ray.spread,
                   .is_spread = ray.is_spread,
                   .is_told = bounce == 0};
-        const auto show = [&](const RayHit& hit, std::uint32_t material) {
+        const auto show = [&](const RayHit& hit, std::uint32_t material, float opacity) {
+            if (bounce == 0 && scene.has_holdouts() && scene.is_holdout(hit)) {
+                if (settings.transparent_film) sample.alpha -= mean_component(one.worth) * opacity;
+                return;
+            }
             one.arrival.hit = hit;
             one.arrival.material = material;
             one.arrival.footprint_m = ray.footprint_m + ray.spread * hit.distance_m;
@@ -55,7 +60,7 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
         };
         float from_m = 0.0f;
         const auto cross_to = [&](float distance_m) {
-            add_light(one.worth * lamps_met(scene, ray, from_m, distance_m), ray.is_spread, sample);
+            add_light(one.worth * lamps_met(scene, ray, bounce, from_m, distance_m), ray.is_spread, sample);
             from_m = distance_m;
         };
         bool ends = false;
@@ -67,19 +72,19 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
                 one.is_told = &passage == told;
                 one.arrival.ray_kind = passage.ray_kind;
                 one.only_shines = passage.only_shines;
-                if (passage.shown > 0.0f) show(passage.hit, passage.material);
+                if (passage.shown > 0.0f) show(passage.hit, passage.material, passage.opacity);
                 one.worth *= passage.passed;
                 ends = passage.ends();
             }
         } else if (hits[i]) {
             cross_to(hits[i]->distance_m);
-            show(*hits[i], scene.material_of(*hits[i]));
+            show(*hits[i], scene.material_of(*hits[i]), 1.0f);
             ends = true;
         }
         if (ends) continue;
         cross_to(std::numeric_limits<float>::infinity());
         if (bounce == 0 && settings.transparent_film)
-            sample.alpha = 1.0f - std::min(mean_component(one.worth), 1.0f);
+            sample.alpha -= std::min(mean_component(one.worth), 1.0f);
         else
             add_light(one.worth *
                           world_radiance(scene.world_view(), ray.ray.direction, ray.ray_kind, bounce, memory.registers),

@@ -14,20 +14,20 @@ BatchWays go_on(const Work& work, std::uint32_t bounce, std::span<const Path> pa
                 const Batch& spread, RayHitOf<Batch>& hit, WordBatch& ray_kind) {
     const std::array<Ray, batch_size> each = unpack<RayOf>(rays);
     std::array<RayHit, batch_size> hits = unpack<RayHitOf>(hit);
-    std::array<std::uint32_t, batch_size> kinds;
+    std::array<std::uint32_t, batch_size> kinds, met;
     ray_kind.store_unaligned(kinds.data());
+    met_by(ray_kind).store_unaligned(met.data());
     const Lanes spreads = store(spread);
     std::vector<StraightRay> straight;
     std::vector<std::optional<RayHit>> first_hits;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         first_hits.push_back(hits[i].instance == no_instance ? std::nullopt : std::optional(hits[i]));
-        straight.push_back({each[i], first_hits[i], kinds[i], paths[i].arrival.footprint_m, spreads[i]});
+        straight.push_back({each[i], first_hits[i], met[i], kinds[i], paths[i].arrival.footprint_m, spreads[i]});
     }
     const auto sample_of = [&](std::size_t i) { return paths[i].sample; };
-    BatchWays found{
-        .passages = find_passages(work.scene, work.settings.max_path_passages, straight, visible_to_light, bounce + 1,
-                                  chosen_by(work.samplers, bounce + 1, never_two, sample_of), work.memory),
-        .ways = {}};
+    BatchWays found{.passages = find_passages(work.scene, work.settings.max_path_passages, straight, bounce + 1,
+                                              chosen_by(work.samplers, bounce + 1, never_two, sample_of), work.memory),
+                    .ways = {}};
     found.ways = ways_on(found.passages, first_hits);
     constexpr RayHit none{std::numeric_limits<float>::infinity(), no_instance, 0, Vec2f(0.0f)};
     std::array<const RayHit*, batch_size> lanes;
@@ -46,35 +46,41 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
     const Scene& scene = work.scene;
     std::vector<std::optional<RayHit>> hits(camera_rays.size());
     scene.intersect(camera_rays, visible_to_camera, hits);
-    const float spread = scene.camera().pixel_spread() * part_of_pixel(work.settings);
+    const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(work.settings);
+    // Passes keep what is shown for one path of a sample.
+    const float least_part = work.passes.empty() ? least_part_of_camera : never_two;
     std::vector<Passage> passages;
     if (scene.has_transparency())
-        passages = find_passages(scene, work.settings.max_path_passages, straight_rays(camera_rays, hits, spread),
-                                 visible_to_camera, 0,
-                                 chosen_by(work.samplers, 0, least_part_of_camera, std::identity()), work.memory);
+        passages = find_passages(scene, work.settings.max_path_passages, straight_rays(camera_rays, hits, width), 0,
+                                 chosen_by(work.samplers, 0, least_part, std::identity()), work.memory);
     std::span<const Passage> left = passages;
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = work.samples[i];
+        if (!work.passes.empty() && !work.settings.transparent_film) work.passes[i].environment = Rgb(0.0f);
         Path path{.arrival = {.direction = camera_rays[i].direction,
                               .hit = {},
                               .material = 0,
-                              .footprint_m = 0.0f,
+                              .footprint_m = width.at(0.0f),
                               .ray_kind = camera_ray},
                   .throughput = Rgb(1.0f),
-                  .spread = spread,
+                  .spread = width.per_m,
                   .emission_weight = 1.0f,
                   .sample = static_cast<std::uint32_t>(i)};
         float from_m = 0.0f;
         std::uint32_t part = 0;
         const auto cross_to = [&](float distance_m) {
-            path.arrival.footprint_m = spread * from_m;
+            path.arrival.footprint_m = width.at(from_m);
             if (fog) path.throughput *= fog->cross(part_of(camera_rays[i], from_m, distance_m), 0, path, part++);
             from_m = distance_m;
         };
         const auto show = [&](const RayHit& hit, std::uint32_t material, float shown) {
+            if (scene.has_holdouts() && scene.is_holdout(hit)) {
+                if (work.settings.transparent_film) sample.alpha -= mean_component(path.throughput) * shown;
+                return;
+            }
             path.arrival.hit = hit;
             path.arrival.material = material;
-            path.arrival.footprint_m = spread * hit.distance_m;
+            path.arrival.footprint_m = width.at(hit.distance_m);
             paths.push_back(path);
             paths.back().throughput *= shown;
         };
@@ -103,11 +109,14 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
         }
         if (ends) continue;
         cross_to(camera_rays[i].far_m);
-        if (work.settings.transparent_film)
-            sample.alpha = 1.0f - std::min(mean_component(path.throughput), 1.0f);
-        else
-            sample.radiance += path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction,
-                                                                camera_ray, 0, work.memory.registers);
+        if (work.settings.transparent_film) {
+            sample.alpha -= std::min(mean_component(path.throughput), 1.0f);
+            continue;
+        }
+        const Rgb sky = path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0,
+                                                         work.memory.registers);
+        sample.radiance += sky;
+        if (!work.passes.empty()) work.passes[i].environment = sky;
     }
 }
 

@@ -16,7 +16,8 @@ namespace pivot {
 struct ShadingPoint {
     SurfacePoint point;
     Base surface;
-    Cap<float> bent_cone;  ///< world space, where occlusion is by bent cones
+    Cap<float> bent_cone;   ///< world space, where occlusion is by bent cones
+    bool is_glass = false;  ///< the part of a lobe that refracts, too
 };
 
 struct SurfaceBatch {
@@ -42,6 +43,14 @@ inline float fresnel_contrast(const LobeFresnel& f) {
     for (int i = 0; i < 3; ++i)
         if (f90[i] > f0[i]) contrast = std::max(contrast, (f90[i] - f0[i]) / std::max(f0[i], 1e-3f * f90[i]));
     return contrast;
+}
+
+/// What a lobe reflects of a light, by its sums. Those under F82's weight are not kept, which is nearly a line over
+/// Schlick's weight: it is taken at that one's mean.
+inline Rgb reflected_by(const LobeFresnel& f, const LobeSums<float>& sums) {
+    const float schlick = f.has_dip() ? clamp01(sums.schlick / std::max(sums.plain, tiny<float>)) : 0.0f;
+    const float f82 = f.has_dip() ? sums.plain * f82_weight(1.0f - std::pow(schlick, 0.2f)) : 0.0f;
+    return f.of_sums(sums.plain, sums.schlick, f82, sums.dielectric);
 }
 
 /// At most batch_size points, at least one.

@@ -382,14 +382,11 @@ class LightCut {
 }  // namespace
 
 Rgb VirtualReflection::radiance(const Base& surface) const {
-    const LobeFresnel& f = surface.fresnel;
     Rgb result;
     for (int c = 0; c < 3; ++c) {
-        const auto& [plain, schlick, dielectric] = glossy[static_cast<std::size_t>(c)];
-        result[c] = surface.diffuse[c] * diffuse[static_cast<std::size_t>(c)] / pi<float>;
-        if (surface.has_glossy())
-            result[c] += f.schlick_f0[c] * plain + (f.schlick_f90[c] - f.schlick_f0[c]) * schlick +
-                         f.dielectric_f0[c] * plain + (f.dielectric_f90[c] - f.dielectric_f0[c]) * dielectric;
+        const auto channel = static_cast<std::size_t>(c);
+        result[c] = surface.diffuse[c] * diffuse[channel] / pi<float>;
+        if (surface.has_glossy()) result[c] += reflected_by(surface.fresnel, glossy[channel])[c];
     }
     return result;
 }

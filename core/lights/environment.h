@@ -11,7 +11,8 @@ namespace pivot {
 
 class Environment {
    public:
-    static constexpr std::uint32_t rows = 256, columns = 512;
+    /// As fine as pictures of skies are: what differs within a cell is noise.
+    static constexpr std::uint32_t rows = 1024, columns = 2048;
 
     /// No light: is_dark().
     Environment() = default;

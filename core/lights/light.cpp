@@ -64,15 +64,23 @@ SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb&
 }
 
 AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
-                          bool ellipse) {
+                          bool ellipse, float spread_rad) {
     require(is_finite(center), "center must be finite");
     require(is_finite(half_u) && is_finite(half_v), "half_u and half_v must be finite");
     require(is_finite(radiance), "radiance must be finite");
+    require(spread_rad >= 0.0f && spread_rad <= 1.001f * pi<float>, "spread_rad must be in [0, pi]");
     const Vec3f normal = cross(half_u, half_v);
     const float quarter_area = length(normal);
     require(quarter_area > 0.0f, "half_u and half_v must span an area");
     const AreaShape shape = ellipse ? AreaShape::ellipse : AreaShape::parallelogram;
-    return {center, half_u, half_v, normal / quarter_area, quarter_area * relative_area(shape), shape, radiance};
+    AreaLight light{center, half_u,  half_v, normal / quarter_area, quarter_area * relative_area(shape),
+                    shape,  radiance};
+    if (spread_rad >= 0.9999f * pi<float>) return light;
+    // In double: the difference is of the third power of the angle.
+    const double half = 0.5 * static_cast<double>(std::max(spread_rad, least_spread_rad)), tangent = std::tan(half);
+    light.radiance *= static_cast<float>(tangent / (tangent - half));
+    light.inverse_tan_spread = static_cast<float>(1.0 / tangent);
+    return light;
 }
 
 std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners, const Rgb& radiance) {
@@ -128,7 +136,9 @@ std::optional<Cap<float>> cap_from(const Light& light, const Vec3f& point) {
 std::optional<LightPoint> light_point(const AreaLight& light, const Vec3f& wi, float distance_m) {
     const float cosine = dot(wi, light.normal), cos_light = light.is_two_sided() ? std::abs(cosine) : -cosine;
     if (cos_light <= 0.0f || distance_m <= 0.0f) return std::nullopt;
-    return LightPoint{wi, distance_m, light.radiance, sqr(distance_m) / (cos_light * light.area_m2)};
+    Rgb radiance = light.radiance;
+    if (light.inverse_tan_spread > 0.0f) radiance *= spread_falloff(light.inverse_tan_spread, cos_light);
+    return LightPoint{wi, distance_m, radiance, sqr(distance_m) / (cos_light * light.area_m2)};
 }
 
 std::optional<LightPoint> sample_light(const Light& light, const Vec3f& point, const Vec2f& u) {

@@ -39,14 +39,17 @@ struct SunLight {
 /// (1 + x) / 2.
 enum class AreaShape : std::uint8_t { parallelogram, ellipse, triangle };
 
-/// A flat light. A triangle of a mesh shines from both sides, others from one.
+/// A flat light. A triangle of a mesh shines from both sides, others from one. With a spread, slats before it hide the
+/// more of it the further one looks from the normal, as Cycles has it: of its radiance 1 - tan / tan(spread / 2) is
+/// left.
 struct AreaLight {
     Vec3f center;
     Vec3f half_u, half_v;
     Vec3f normal;  ///< the side that shines, unit
     float area_m2;
     AreaShape shape;
-    Rgb radiance;
+    Rgb radiance;                     ///< along the normal
+    float inverse_tan_spread = 0.0f;  ///< 1 / tan(spread / 2); 0: it shines alike to all sides
 
     bool is_two_sided() const { return shape == AreaShape::triangle; }
 };
@@ -62,9 +65,11 @@ SpotLight make_spot_light(const SphereLight& sphere, const Vec3f& direction, flo
                           bool is_cosine);
 /// direction: towards the sun, unit. irradiance: of a surface that faces it.
 SunLight make_sun_light(const Vec3f& direction, float half_angle_rad, const Rgb& irradiance);
-/// half_u, half_v: from the centre to the middle of two sides. Shines towards cross(half_u, half_v).
+/// half_u, half_v: from the centre to the middle of two sides. Shines towards cross(half_u, half_v). radiance: without
+/// spread; a narrower one, of at least least_spread_rad, leaves the power as it is.
 AreaLight make_area_light(const Vec3f& center, const Vec3f& half_u, const Vec3f& half_v, const Rgb& radiance,
-                          bool ellipse);
+                          bool ellipse, float spread_rad);
+inline constexpr float least_spread_rad = pi<float> / 180.0f;
 /// Of a mesh, with these corners. Nothing where they span no area.
 std::optional<AreaLight> make_triangle_light(const std::array<Vec3f, 3>& corners, const Rgb& radiance);
 
@@ -88,6 +93,13 @@ template <class T>
 T spot_falloff(const SpotLight& spot, T cosine) {
     const T falloff = falloff_of((cosine - T(spot.cos_half_angle)) / T(spot_falloff_width(spot)));
     return spot.is_cosine ? falloff * max(cosine, T(0)) : falloff;
+}
+
+/// What a spread leaves of the radiance at that cosine from the normal.
+template <class T>
+T spread_falloff(const T& inverse_tan_spread, const T& cosine) {
+    const T tangent = safe_sqrt(T(1) - cosine * cosine) / max(cosine, T(1e-6f));
+    return max(T(1) - inverse_tan_spread * tangent, T(0));
 }
 
 /// Along wi to the disk about to_center that faces the origin.

@@ -1,6 +1,7 @@
-// A pinhole camera: what Blender's perspective camera sees.
+// What Blender's camera sees, of every kind, and through a lens of some width.
 #pragma once
 
+#include "core/geometry/projection.h"
 #include "core/math/transform.h"
 #include "core/scene/ray_tracer.h"
 #include "core/shaders/place.h"
@@ -15,37 +16,54 @@ struct Window {
     int height() const { return y1 - y0; }
 };
 
-/// Camera space looks down -z, y up. The view plane lies at z = -1 and holds the full frame.
+/// A thin lens, in focus on a plane, or at a distance from a panorama's one point of view.
+struct Lens {
+    float radius_m = 0.0f;  ///< 0: a pinhole
+    float focus_m = 1.0f;
+    int blades = 0;  ///< sides of its stop, a regular polygon; fewer than 3: it is round
+    float rotation_rad = 0.0f;
+    float ratio = 1.0f;  ///< how much narrower the stop is made along x
+
+    /// A place of the stop, even over its area. u in [0, 1)^2.
+    Vec2f sample_m(const Vec2f& u) const;
+};
+
+/// How wide a pixel is where rays start, and how much wider for each m from there.
+struct PixelWidth {
+    float start_m, per_m;
+
+    float at(float distance_m) const { return start_m + per_m * distance_m; }
+    PixelWidth operator*(float part) const { return {start_m * part, per_m * part}; }
+};
+
+/// Camera space looks down -z, y up.
 struct Camera {
     Transform world_from_camera;
-    float left = -1, right = 1, bottom = -1, top = 1;
+    Projection projection;
+    Lens lens;
+    float left = -1, right = 1, bottom = -1, top = 1;  ///< the full frame, in places of the projection
     int width = 0, height = 0;
     Window window;
     float clip_start_m = 0.0f;
     float clip_end_m = std::numeric_limits<float>::infinity();
 
-    /// Through a place of the full frame, in pixels from the bottom left (a pixel's centre is at .5).
-    Ray ray(const Vec2f& pixel) const {
-        const Vec3f through{lerp(left, right, pixel.x / static_cast<float>(width)),
-                            lerp(bottom, top, pixel.y / static_cast<float>(height)), -1.0f};
-        const float slant = length(through);
-        return {world_from_camera.translation, normalize(world_from_camera.vector(through)), clip_start_m * slant,
-                clip_end_m * slant};
-    }
+    /// Through a place of the full frame, in pixels from the bottom left (a pixel's centre is at .5), and the middle of
+    /// the lens. Where a fisheye sees nothing there is no such ray: its far_m is 0.
+    Ray ray(const Vec2f& pixel) const { return ray_from(pixel, Vec2f(0.0f)); }
+    /// Through a place of the lens too. u_lens in [0, 1)^2.
+    Ray ray(const Vec2f& pixel, const Vec2f& u_lens) const { return ray_from(pixel, lens.sample_m(u_lens)); }
 
     /// What shaders ask of it.
-    CameraFacts facts() const {
-        const Vec2f scale(1.0f / (right - left), 1.0f / (top - bottom));
-        return {world_from_camera, world_from_camera.inverse(), scale, Vec2f(-left, -bottom) * scale, clip_start_m};
-    }
+    CameraFacts facts() const;
 
-    /// How wide a pixel is, per m from the camera.
-    float pixel_spread() const { return (right - left) / static_cast<float>(width); }
+    /// In the middle of the frame.
+    PixelWidth pixel_width() const;
 
-    /// Distance in front of the camera along its axis.
-    float depth_m(const Vec3f& point) const {
-        return -dot(normalize(world_from_camera.linear[2]), point - world_from_camera.translation);
-    }
+    /// Distance in front of the camera along its axis, or from a panorama.
+    float depth_m(const Vec3f& point) const;
+
+   private:
+    Ray ray_from(const Vec2f& pixel, const Vec2f& lens_place_m) const;
 };
 
 }  // namespace pivot

@@ -15,6 +15,8 @@ struct Instance {
     Transform world_from_object;
     std::vector<std::uint32_t> materials;  ///< per slot; a slot past the end uses the last
     std::uint32_t visibility;
+    float matte_object = 0.0f, matte_asset = 0.0f;  ///< ids of mattes
+    bool is_holdout = false;                        ///< a camera sees a hole in its place
     ObjectFacts facts{};
     Mat3<float> normal_matrix{1.0f};  ///< of world_from_object; the scene sets it
 };

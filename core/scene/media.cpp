@@ -51,7 +51,7 @@ PlacedMedium place(const std::shared_ptr<const Medium>& medium, const Mesh& mesh
 
 }  // namespace
 
-Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::unique_ptr<const Mesh>> meshes,
+Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::shared_ptr<const Mesh>> meshes,
              std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (world) {
@@ -77,11 +77,11 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::un
         are_even_boxes_ = are_even_boxes_ && boundary.medium_of_slot.size() == 1;
     std::size_t triangles = 0;
     for (const Boundary& boundary : boundaries_) triangles += boundary.mesh->triangles.size();
-    if (triangles > FewTriangles::most) tracer_ = std::make_unique<RayTracer>(true);
+    if (triangles > FewTriangles::most) tracer_ = std::make_unique<RayTracer>(nullptr, true);
     for (std::uint32_t id = 0; id < boundaries_.size(); ++id) {
         const auto& [mesh, instance, media] = boundaries_[id];
         if (tracer_) {
-            tracer_->set_mesh(instance->mesh, *mesh);
+            tracer_->set_mesh(instance->mesh, meshes[instance->mesh]);
             tracer_->set_instance(id, instance->mesh, instance->world_from_object, visible_to_all);
             continue;
         }

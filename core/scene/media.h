@@ -51,7 +51,7 @@ struct MediaAlong {
 
 class Media {
    public:
-    Media(const std::shared_ptr<const Medium>& world, std::span<const std::unique_ptr<const Mesh>> meshes,
+    Media(const std::shared_ptr<const Medium>& world, std::span<const std::shared_ptr<const Mesh>> meshes,
           std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders);
 
     /// No media at all: rays need not ask.

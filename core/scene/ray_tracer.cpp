@@ -1,38 +1,23 @@
 #include "core/scene/ray_tracer.h"
 
-#if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
-#else
-#include <embree4/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <map>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
+#include "core/scene/embree.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
 namespace {
 
-struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-
-template <class Handle>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
 constexpr std::uint32_t still_id = 0;
+constexpr std::uint32_t shadow_mask = hides_light | filters_light;
 /// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB.
 constexpr std::size_t max_copied_triangles = 1u << 19;
-/// A BVH of more triangles is compact: it takes 50 bytes a triangle less, and rays take a quarter to a third longer.
-constexpr std::size_t max_fast_triangles = 1u << 22;
+/// Where meshes have shared BVHs, so many triangles of small ones are put into one BVH anew for each scene: some 5 ms.
+constexpr std::size_t max_rebuilt_triangles = 1u << 15;
 
 /// The instance that a hit's ids name; no_instance where nothing was hit.
 std::uint32_t instance_of(std::uint32_t world_id, std::uint32_t geometry_id) {
@@ -90,7 +75,7 @@ void intersect_coherent(RTCScene scene, BatchHits& hits, const int* valid) {
 }
 
 /// Fills a packet with a batch; `valid` is -1 for lanes that are rays, else 0. Returns whether any is.
-bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::uint32_t mask) {
+bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, const WordBatch& mask) {
     const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
     put(rays.origin.x, packet.org_x), put(rays.origin.y, packet.org_y), put(rays.origin.z, packet.org_z);
     put(rays.direction.x, packet.dir_x), put(rays.direction.y, packet.dir_y), put(rays.direction.z, packet.dir_z);
@@ -99,9 +84,9 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, std::u
     for (std::size_t i = 0; i < batch_size; ++i) {
         valid[i] = packet.tfar[i] > 0.0f ? -1 : 0;
         any = any || valid[i];
-        packet.mask[i] = mask;
         packet.flags[i] = 0;
     }
+    mask.store_unaligned(packet.mask);
     return any;
 }
 
@@ -122,13 +107,29 @@ void for_each_batch(std::span<const Ray> rays, const Visit& visit) {
     }
 }
 
+// Has Embree ask a callback of each hit; it hands the context back to it.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
+
+template <class Arguments>
+Arguments* filter_by(RTCFilterFunctionN filter, Context& context, Arguments& arguments) {
+    rtcInitRayQueryContext(&context);
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.filter = filter;
+    arguments.context = &context;
+    return &arguments;
+}
 #else
 using Context = RTCIntersectContext;
+
+Context* filter_by(RTCFilterFunctionN filter, Context& context) {
+    rtcInitIntersectContext(&context);
+    context.filter = filter;
+    return &context;
+}
 #endif
 
-/// What keep_crossing needs beside a hit. The context is Embree's, which comes back to it.
+/// What keep_crossing needs beside a hit.
 struct CrossingQuery {
     Context context;
     std::vector<Crossing>* found;
@@ -193,76 +194,42 @@ struct RayTracer::Implementation {
     };
 
     bool finds_crossings;
-    bool filters = false;  ///< whether rays stop at what a callback says
-    Owned<RTCDevice> device;
+    std::shared_ptr<MeshBvhs> shared;  ///< none: it has its own
+    bool filters = false;              ///< whether rays stop at what a callback says
+    std::shared_ptr<const EmbreeDevice> device;
     Owned<RTCScene> world;  ///< still_id is the still scene; id + 1 an instance that is traced in its own space
     Owned<RTCScene> still;  ///< instances in world space: one BVH, and no transforms on the way
     Owned<RTCGeometry> still_in_world;
-    std::unordered_map<std::uint32_t, const Mesh*> meshes;
-    std::unordered_map<std::uint32_t, Owned<RTCScene>> mesh_scenes;  ///< of the meshes that instances need
+    std::unordered_map<std::uint32_t, std::shared_ptr<const Mesh>> meshes;
+    std::unordered_map<std::uint32_t, std::shared_ptr<const MeshBvh>> mesh_bvhs;  ///< of those that instances need
     std::map<std::uint32_t, Placed> placed;
     std::size_t copied_triangles = 0, moving_count = 0;
     bool still_changed = true, changed = true;
 
-    void check() const {
-        const RTCError error = rtcGetDeviceError(device.get());
-        if (error == RTC_ERROR_NONE) return;
-        if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-        throw std::runtime_error("Embree failed with error " + std::to_string(error));
-    }
-
     /// What rays are traced in: where nothing moves, the still scene needs no other around it.
     RTCScene traced() const { return moving_count > 0 ? world.get() : still.get(); }
 
-    Owned<RTCScene> make_scene() const { return Owned<RTCScene>(rtcNewScene(device.get())); }
-
-    void build(RTCScene scene, std::size_t triangle_count) const {
-        // Exact at shared edges: no light leaks between triangles.
-        int flags = RTC_SCENE_FLAG_ROBUST | (triangle_count > max_fast_triangles ? RTC_SCENE_FLAG_COMPACT : 0);
-#if RTC_VERSION_MAJOR >= 4
-        if (filters) flags |= RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
-#else
-        if (filters) flags |= RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
-#endif
-        rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
-        rtcCommitScene(scene);
-    }
-
-    Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const {
-        Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
-                                   sizeof(Vec3f), mesh.vertex_count());
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
-                                   sizeof(Triangle), mesh.triangles.size());
-        return geometry;
-    }
-
     Owned<RTCGeometry> make_instance(RTCScene scene, const Transform& world_from_object) const {
-        Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        Owned<RTCGeometry> geometry(rtcNewGeometry(device->handle.get(), RTC_GEOMETRY_TYPE_INSTANCE));
         rtcSetGeometryInstancedScene(geometry.get(), scene);
         set_transform(geometry.get(), world_from_object);
         return geometry;
     }
 
     RTCScene scene_of_mesh(std::uint32_t mesh_id) {
-        Owned<RTCScene>& scene = mesh_scenes[mesh_id];
-        if (!scene) {
-            const Mesh& mesh = *meshes.at(mesh_id);
-            const auto geometry = make_triangles(mesh, mesh.positions);
-            rtcSetGeometryMask(geometry.get(), ~0u);
-            rtcCommitGeometry(geometry.get());
-            scene = make_scene();
-            rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
-            build(scene.get(), mesh.triangles.size());
+        std::shared_ptr<const MeshBvh>& bvh = mesh_bvhs[mesh_id];
+        if (!bvh) {
+            const auto& mesh = meshes.at(mesh_id);
+            bvh = shared ? shared->bvh_of(mesh, filters) : std::make_shared<const MeshBvh>(*device, *mesh, filters);
         }
-        return scene.get();
+        return bvh->scene.get();
     }
 
     void attach_still(std::uint32_t id, Placed& instance) {
         const Mesh& mesh = *meshes.at(instance.mesh);
         instance.positions.reserve(mesh.positions.size());
         for (const Vec3f& p : mesh.positions) instance.positions.push_back(instance.world_from_object.point(p));
-        const auto geometry = make_triangles(mesh, instance.positions);
+        const auto geometry = device->make_triangles(mesh, instance.positions);
         rtcSetGeometryMask(geometry.get(), instance.visibility);
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(still.get(), geometry.get(), id);
@@ -298,7 +265,7 @@ struct RayTracer::Implementation {
         const bool wanted = finds_crossings || std::ranges::any_of(placed, is_filter);
         if (std::exchange(filters, wanted) == wanted) return;
         for (auto& [id, instance] : placed) detach(id, instance);
-        mesh_scenes.clear();
+        mesh_bvhs.clear();
         changed = still_changed = true;
     }
 
@@ -314,7 +281,7 @@ struct RayTracer::Implementation {
     Batch meet_nothing(const RayOf<Batch>& rays, std::uint32_t mask) const {
         alignas(64) int valid[batch_size];
         BatchRays r;
-        if (fill_packet(r, valid, rays, mask)) trace(occluded_batch, traced(), r, valid);
+        if (fill_packet(r, valid, rays, WordBatch(mask))) trace(occluded_batch, traced(), r, valid);
         return met_nothing(r);
     }
 
@@ -323,8 +290,9 @@ struct RayTracer::Implementation {
         for (const auto& [id, instance] : placed) ++uses[instance.mesh];
         for (auto& [id, instance] : placed) {
             if (instance.side != Side::none) continue;
-            const std::size_t copied = uses[instance.mesh] > 1 ? meshes.at(instance.mesh)->triangles.size() : 0;
-            const bool has_room = copied_triangles + copied <= max_copied_triangles;
+            const std::size_t copied =
+                shared || uses[instance.mesh] > 1 ? meshes.at(instance.mesh)->triangles.size() : 0;
+            const bool has_room = copied_triangles + copied <= (shared ? max_rebuilt_triangles : max_copied_triangles);
             // What is scaled flat has no space of its own to be traced in.
             if (!instance.world_from_object.is_invertible() || (!instance.has_moved && has_room)) {
                 attach_still(id, instance);
@@ -336,23 +304,25 @@ struct RayTracer::Implementation {
     }
 };
 
-RayTracer::RayTracer(bool finds_crossings) : implementation_(std::make_unique<Implementation>()) {
+RayTracer::RayTracer(std::shared_ptr<MeshBvhs> shared, bool finds_crossings)
+    : implementation_(std::make_unique<Implementation>()) {
     auto& self = *implementation_;
     self.finds_crossings = finds_crossings;
-    self.device.reset(rtcNewDevice(nullptr));
-    if (!self.device)
-        throw std::runtime_error("Embree could not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
-    self.world = self.make_scene();
-    self.still = self.make_scene();
+    self.device = shared ? shared->device() : std::make_shared<const EmbreeDevice>();
+    self.shared = std::move(shared);
+    self.world = self.device->make_scene();
+    self.still = self.device->make_scene();
     self.still_in_world = self.make_instance(self.still.get(), {});
     rtcSetGeometryMask(self.still_in_world.get(), ~0u);
     rtcAttachGeometryByID(self.world.get(), self.still_in_world.get(), still_id);
-    self.check();
+    self.device->check();
 }
 
 RayTracer::~RayTracer() = default;
 
-void RayTracer::set_mesh(std::uint32_t mesh_id, const Mesh& mesh) { implementation_->meshes[mesh_id] = &mesh; }
+void RayTracer::set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh) {
+    implementation_->meshes[mesh_id] = std::move(mesh);
+}
 
 void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                              std::uint32_t visibility) {
@@ -374,7 +344,7 @@ void RayTracer::set_visibility(std::uint32_t instance_id, std::uint32_t visibili
     // Embree reads masks as it traces: no BVH holds them, and none is committed for them.
     rtcSetGeometryMask(geometry, visibility);
     rtcCommitGeometry(geometry);
-    self.check();
+    self.device->check();
 }
 
 void RayTracer::remove_instance(std::uint32_t instance_id) {
@@ -383,7 +353,7 @@ void RayTracer::remove_instance(std::uint32_t instance_id) {
     if (found == self.placed.end()) return;
     self.detach(instance_id, found->second);
     self.placed.erase(found);
-    self.check();
+    self.device->check();
     self.changed = true;
 }
 
@@ -393,11 +363,11 @@ void RayTracer::commit() {
     if (!self.changed) return;
     self.attach_all();
     if (self.still_changed) {
-        self.build(self.still.get(), self.still_triangles());
+        self.device->build(self.still.get(), self.still_triangles(), self.filters);
         rtcCommitGeometry(self.still_in_world.get());
     }
-    self.build(self.world.get(), 0);
-    self.check();
+    self.device->build(self.world.get(), 0, self.filters);
+    self.device->check();
     self.changed = self.still_changed = false;
 }
 
@@ -412,7 +382,7 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
-    RTCRay r = to_embree(ray, visible_to_light);
+    RTCRay r = to_embree(ray, shadow_mask);
     trace(rtcOccluded1, implementation_->traced(), r);
     return r.tfar < 0.0f;
 }
@@ -430,23 +400,26 @@ void RayTracer::crossings(const Ray& ray, std::vector<Crossing>& found) const {
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     CrossingQuery query{{}, &found};
 #if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.context);
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-    arguments.filter = keep_crossing;
-    arguments.context = &query.context;
-    rtcIntersect1(implementation_->traced(), &r, &arguments);
+    rtcIntersect1(implementation_->traced(), &r, filter_by(keep_crossing, query.context, arguments));
 #else
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = keep_crossing;
-    rtcIntersect1(implementation_->traced(), &query.context, &r);
+    rtcIntersect1(implementation_->traced(), filter_by(keep_crossing, query.context), &r);
 #endif
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<std::optional<RayHit>> hits) const {
+    const std::vector<std::uint32_t> each(rays.size(), from);
+    intersect(rays, each, hits);
+}
+
+void RayTracer::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> from,
+                          std::span<std::optional<RayHit>> hits) const {
     for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
-        const std::array<RayHit, batch_size> met = unpack<RayHitOf>(intersect(batch, from));
+        std::array<std::uint32_t, batch_size> masks;
+        for (std::size_t i = 0; i < batch_size; ++i) masks[i] = from[std::min(first + i, rays.size() - 1)];
+        const std::array<RayHit, batch_size> met =
+            unpack<RayHitOf>(intersect(batch, WordBatch::load_unaligned(masks.data())));
         for (std::size_t i = 0; i < count; ++i)
             hits[first + i] = met[i].instance == no_instance ? std::nullopt : std::optional(met[i]);
     });
@@ -454,12 +427,12 @@ void RayTracer::intersect(std::span<const Ray> rays, Visibility from, std::span<
 
 void RayTracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded_rays) const {
     for_each_batch(rays, [&](std::size_t first, std::size_t count, const RayOf<Batch>& batch) {
-        const auto visible = store(implementation_->meet_nothing(batch, visible_to_light));
+        const auto visible = store(implementation_->meet_nothing(batch, shadow_mask));
         for (std::size_t i = 0; i < count; ++i) occluded_rays[first + i] = visible[i] > 0.0f ? 0 : 1;
     });
 }
 
-RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) const {
+RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, const WordBatch& from) const {
     alignas(64) int valid[batch_size];
     BatchHits r;
     const bool any = fill_packet(r.ray, valid, rays, from);
@@ -467,7 +440,7 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, Visibility from) 
         r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         r.hit.instID[0][i] = no_instance;
     }
-    if (any && from == visible_to_camera)
+    if (any && xsimd::all(from == WordBatch(visible_to_camera)))
         intersect_coherent(implementation_->traced(), r, valid);
     else if (any)
         trace(intersect_batch, implementation_->traced(), r, valid);
@@ -485,21 +458,15 @@ Batch RayTracer::filtered(const RayOf<Batch>& rays, const std::array<std::uint32
                           const IsOpaque& is_opaque, std::vector<Filtered>& found) const {
     alignas(64) int valid[batch_size];
     BatchRays r;
-    if (!fill_packet(r, valid, rays, filters_light)) return Batch(0.0f);
+    if (!fill_packet(r, valid, rays, WordBatch(filters_light))) return Batch(0.0f);
     for (std::size_t i = 0; i < batch_size; ++i) r.id[i] = static_cast<unsigned>(i);
     FilterQuery query{{}, &most, &is_opaque, &found};
 #if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.context);
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-    arguments.filter = keep_filtered;
-    arguments.context = &query.context;
-    occluded_batch(valid, implementation_->traced(), &r, &arguments);
+    occluded_batch(valid, implementation_->traced(), &r, filter_by(keep_filtered, query.context, arguments));
 #else
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = keep_filtered;
-    occluded_batch(valid, implementation_->traced(), &query.context, &r);
+    occluded_batch(valid, implementation_->traced(), filter_by(keep_filtered, query.context), &r);
 #endif
     return met_nothing(r);
 }

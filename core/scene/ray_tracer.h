@@ -1,4 +1,4 @@
-// Closest hits and occlusion over instanced meshes. The only place that knows Embree.
+// Closest hits and occlusion over instanced meshes. It alone, and the BVHs of mesh_bvhs.h, know Embree.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "core/geometry/mesh.h"
 #include "core/math/transform.h"
+#include "core/scene/mesh_bvhs.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
@@ -36,13 +37,19 @@ using Ray = RayOf<float>;
 using RayHit = RayHitOf<float>;
 inline constexpr std::uint32_t no_instance = ~0u;
 
-/// Who sees an instance. Shadow rays end at what hides light, and pass what filters it.
+/// Which rays meet an instance: those of a camera, and of paths by how they were last reflected or scattered. Shadow
+/// rays of what casts shadows end at what hides light, and pass what filters it.
 enum Visibility : std::uint32_t {
     visible_to_camera = 1,
-    visible_to_light = 2,
-    visible_to_all = 3,
-    hides_light = 4,
-    filters_light = 8,
+    visible_to_diffuse = 2,
+    visible_to_glossy = 4,
+    visible_to_transmission = 8,
+    visible_to_scatter = 16,
+    visible_to_paths = 30,  ///< all kinds of them
+    casts_shadows = 32,
+    visible_to_all = 63,
+    hides_light = 64,
+    filters_light = 128,
 };
 
 /// Where a ray passes through a surface.
@@ -53,14 +60,14 @@ struct Crossing {
 
 class RayTracer {
    public:
-    /// finds_crossings: it serves crossings() alone.
-    explicit RayTracer(bool finds_crossings = false);
+    /// shared: BVHs of large meshes, which it then traces each in its own space. finds_crossings: it serves
+    /// crossings() alone.
+    explicit RayTracer(std::shared_ptr<MeshBvhs> shared = nullptr, bool finds_crossings = false);
     ~RayTracer();
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;
 
-    /// The mesh's vectors are read in place: they must outlive the tracer and keep their addresses.
-    void set_mesh(std::uint32_t mesh_id, const Mesh& mesh);
+    void set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh);
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
     /// Who sees an instance; at once, and without a build.
@@ -70,7 +77,7 @@ class RayTracer {
     void commit();
 
     std::optional<RayHit> intersect(const Ray& ray, Visibility from) const;
-    /// Whether anything is there, even if it filters light.
+    /// Whether anything that casts shadows is there, even if it filters light.
     bool occluded(const Ray& ray) const;
 
     /// Many at once, in batches of neighbours in the span. hits: one per ray.
@@ -83,7 +90,10 @@ class RayTracer {
     /// Appends every surface along a ray, in no order, whoever sees it.
     void crossings(const Ray& ray, std::vector<Crossing>& found) const;
 
-    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const;
+    /// from: of each ray, a Visibility.
+    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, const WordBatch& from) const;
+    void intersect(std::span<const Ray> rays, std::span<const std::uint32_t> from,
+                   std::span<std::optional<RayHit>> hits) const;
     /// 1 for each ray that meets nothing that hides light, else 0.
     Batch visibility(const RayOf<Batch>& rays) const;
 

@@ -52,10 +52,11 @@ void require_valid(const Mesh& mesh) {
 void require_valid(const std::string& name, const Material& material) {
     const auto valid = [](const Rgb& c) { return is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f; };
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
-        !valid(material.dielectric_tint) || !is_finite(material.emission) || !std::isfinite(material.alpha) ||
-        !std::isfinite(material.dielectric_ior) || !(material.dielectric_weight >= 0.0f) ||
-        !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f) || !valid(material.transparency.color) ||
-        !(material.transparency.opacity >= 0.0f) || !std::isfinite(material.transparency.opacity)) {
+        !valid(material.conductor_dip) || !valid(material.dielectric_tint) || !is_finite(material.emission) ||
+        !std::isfinite(material.alpha) || !std::isfinite(material.dielectric_ior) ||
+        !(material.dielectric_weight >= 0.0f) || !(material.conductor_weight >= 0.0f) || !(material.weight >= 0.0f) ||
+        !valid(material.transparency.color) || !(material.transparency.opacity >= 0.0f) ||
+        !std::isfinite(material.transparency.opacity)) {
         throw std::invalid_argument("material '" + name + "': a value is negative or not finite");
     }
     if (material.alpha < 0.0f || material.alpha > 1.0f)
@@ -106,16 +107,23 @@ std::optional<Light>& Scene::light_at(std::uint32_t id) {
 
 std::uint32_t Scene::add_mesh(Mesh mesh) {
     require_valid(mesh);
+    return add_mesh(std::make_shared<const Mesh>(std::move(mesh)));
+}
+
+std::uint32_t Scene::add_mesh(std::shared_ptr<const Mesh> mesh) {
     const auto edit = begin_edit();
     const auto id = static_cast<std::uint32_t>(meshes_.size());
-    meshes_.push_back(std::make_unique<const Mesh>(std::move(mesh)));
-    ray_tracer_.set_mesh(id, *meshes_.back());
+    ray_tracer_.set_mesh(id, mesh);
+    meshes_.push_back(std::move(mesh));
     return id;
 }
 
+std::shared_ptr<const Mesh> Scene::mesh(std::uint32_t id) const { return at(meshes_, id, "mesh"); }
+
 std::uint32_t Scene::attribute_id(const std::string& name) {
-    const auto id = static_cast<std::uint32_t>(std::ranges::find(attribute_names_, name) - attribute_names_.begin());
-    if (id == attribute_names_.size()) attribute_names_.push_back(name);
+    std::vector<std::string>& names = shared_ ? shared_->attribute_names : attribute_names_;
+    const auto id = static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
+    if (id == names.size()) names.push_back(name);
     return id;
 }
 
@@ -151,9 +159,9 @@ std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transfo
     return first;
 }
 
-std::uint32_t Scene::add_light(const std::string& name, const Light& light) {
+std::uint32_t Scene::add_light(const std::string& name, const Light& light, const LightRules& rules) {
     const auto edit = begin_edit();
-    added_lights_.push_back(NamedLight{name, light});
+    added_lights_.push_back(NamedLight{name, light, rules});
     are_lamps_stale_ = true;
     return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }
@@ -173,9 +181,10 @@ void Scene::set_material(std::uint32_t id, Shader shader) {
     }
 }
 
-void Scene::set_light(std::uint32_t id, const Light& light) {
+void Scene::set_light(std::uint32_t id, const Light& light, const LightRules& rules) {
     const auto edit = begin_edit();
     light_at(id) = light;
+    added_lights_[id].rules = rules;
     are_lamps_stale_ = true;
 }
 
@@ -194,7 +203,7 @@ void Scene::set_instance_visibility(std::uint32_t id, std::uint32_t visibility) 
     const auto edit = begin_edit();
     const std::uint32_t before = std::exchange(at_present(instances_, id, "instance").visibility, visibility);
     ray_tracer_.set_visibility(id, visibility);
-    if (((before ^ visibility) & visible_to_light) == 0) return;
+    if (((before ^ visibility) & ~std::uint32_t{visible_to_camera}) == 0) return;
     instance_lights_[id].is_stale = true;
     bent_cones_.clear();
 }
@@ -250,6 +259,16 @@ void Scene::set_camera(const Camera& camera) {
         throw std::invalid_argument(
             "camera: view_plane must be (left, right, bottom, top) with left < right, bottom < top");
     }
+    const Lens& lens = camera.lens;
+    if (!(lens.radius_m >= 0.0f) || !(lens.focus_m > 0.0f) || !(lens.ratio > 0.0f) || !std::isfinite(lens.radius_m) ||
+        !std::isfinite(lens.focus_m) || !std::isfinite(lens.ratio) || !std::isfinite(lens.rotation_rad)) {
+        throw std::invalid_argument("camera: its lens must be finite, with its focus and its ratio above 0");
+    }
+    const Ray middle = camera.ray(0.5f * Vec2f(static_cast<float>(camera.width), static_cast<float>(camera.height)));
+    if (!is_finite(middle.origin) || !is_finite(middle.direction) || std::isnan(camera.clip_end_m) ||
+        !std::isfinite(camera.clip_start_m) || !std::isfinite(camera.pixel_width().at(1.0f))) {
+        throw std::invalid_argument("camera: its projection or clip distances are not finite");
+    }
     camera_ = camera;
     camera_facts_ = camera.facts();
 }
@@ -265,11 +284,12 @@ void Scene::commit() {
     world_.program.make_image_levels();
     commit_lamps();
     commit_triangle_lights();
+    commit_light_rules();
     is_committed_ = true;
 }
 
 void Scene::commit_visibility() {
-    has_transparency_ = false;
+    has_transparency_ = has_holdouts_ = false;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
         const auto any_is = [&](const auto& what) {
@@ -279,7 +299,8 @@ void Scene::commit_visibility() {
         const bool is_met = any_is([](const Shader& shader) { return shader.has_surface; });
         const bool is_transparent = any_is([](const Shader& shader) { return shader.is_transparent(); });
         std::uint32_t visibility = is_met ? instances_[i]->visibility : 0;
-        if (visibility & visible_to_light) visibility |= is_transparent ? filters_light : hides_light;
+        if (visibility & casts_shadows) visibility |= is_transparent ? filters_light : hides_light;
+        has_holdouts_ = has_holdouts_ || instances_[i]->is_holdout;
         has_transparency_ = has_transparency_ || (visibility != 0 && is_transparent);
         ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), visibility);
     }
@@ -348,9 +369,19 @@ void Scene::commit_triangle_lights() {
     triangle_tree_ = LightTree(triangle_lights_);
 }
 
+void Scene::commit_light_rules() {
+    light_rules_.clear();
+    for (const NamedLight& named : added_lights_)
+        if (named.light) light_rules_.push_back(named.rules);
+    for (const SceneTriangle& triangle : scene_triangles_)
+        light_rules_.push_back({.lights = instances_[triangle.instance]->visibility & visible_to_paths});
+    has_light_rules_ = std::ranges::any_of(light_rules_, [](const LightRules& rules) { return rules != LightRules{}; });
+    if (!has_light_rules_) light_rules_.clear();
+}
+
 bool Scene::shines(std::size_t instance) const {
     const auto& present = instances_[instance];
-    if (!present || (present->visibility & visible_to_light) == 0) return false;
+    if (!present || (present->visibility & visible_to_paths) == 0) return false;
     return std::ranges::any_of(present->materials, [&](std::uint32_t id) { return shaders_[id].is_emissive(); });
 }
 

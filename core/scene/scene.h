@@ -10,6 +10,7 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
+#include "core/scene/light_rules.h"
 #include "core/scene/media.h"
 #include "core/scene/triangle_lights.h"
 #include "core/shaders/world.h"
@@ -19,11 +20,24 @@ namespace pivot {
 struct NamedLight {
     std::string name;
     std::optional<Light> light;  ///< none: removed
+    LightRules rules;
+};
+
+/// What scenes share that are made one after the other, as edits ask for, of meshes that are mostly the same.
+struct SharedMeshes {
+    std::shared_ptr<MeshBvhs> bvhs = std::make_shared<MeshBvhs>();
+    std::vector<std::string> attribute_names;  ///< an id is a place
 };
 
 class Scene {
    public:
+    Scene() = default;
+    explicit Scene(std::shared_ptr<SharedMeshes> shared) : shared_(std::move(shared)), ray_tracer_(shared_->bvhs) {}
+
     std::uint32_t add_mesh(Mesh mesh);
+    /// One that another scene has, by the same SharedMeshes.
+    std::uint32_t add_mesh(std::shared_ptr<const Mesh> mesh);
+    std::shared_ptr<const Mesh> mesh(std::uint32_t id) const;
     /// The id of a mesh's attribute by its name, the same for all meshes.
     std::uint32_t attribute_id(const std::string& name);
     std::uint32_t add_material(const std::string& name, Shader shader);
@@ -31,9 +45,9 @@ class Scene {
     /// consecutive.
     std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects,
                                 std::span<const ObjectFacts> facts);
-    std::uint32_t add_light(const std::string& name, const Light& light);
+    std::uint32_t add_light(const std::string& name, const Light& light, const LightRules& rules = {});
     void set_material(std::uint32_t id, Shader shader);
-    void set_light(std::uint32_t id, const Light& light);
+    void set_light(std::uint32_t id, const Light& light, const LightRules& rules = {});
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
     void set_instance_visibility(std::uint32_t id, std::uint32_t visibility);
     void set_instance_materials(std::uint32_t id, const std::vector<std::uint32_t>& materials);
@@ -70,6 +84,10 @@ class Scene {
     /// The place of the light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
     bool has_varying_lights() const { return has_varying_lights_; }
+    /// Whether any light's rules say anything; elsewhere they need not be asked.
+    bool has_light_rules() const { return has_light_rules_; }
+    /// Of a light by its place.
+    const LightRules& rules_of(std::size_t place) const { return light_rules_[place]; }
     /// The triangle that one of triangle_lights() is.
     const SceneTriangle& shining_triangle(std::size_t triangle_light) const { return scene_triangles_[triangle_light]; }
     /// The triangle that a light is whose emission is a program's; nothing of other lights.
@@ -100,9 +118,15 @@ class Scene {
                    std::vector<RayTracer::Filtered>& found) const;
     /// What fills space; empty in most scenes.
     const Media& media() const { return *media_; }
-    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, Visibility from) const {
+    RayHitOf<Batch> intersect(const RayOf<Batch>& rays, const WordBatch& from) const {
         return ray_tracer_.intersect(rays, from);
     }
+    void intersect(std::span<const Ray> rays, std::span<const std::uint32_t> from,
+                   std::span<std::optional<RayHit>> hits) const {
+        ray_tracer_.intersect(rays, from, hits);
+    }
+    bool has_holdouts() const { return has_holdouts_; }
+    bool is_holdout(const RayHit& hit) const { return instances_[hit.instance]->is_holdout; }
     Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
     HitTriangleOf<float> hit_triangle(const RayHit& hit) const;
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
@@ -111,6 +135,12 @@ class Scene {
     /// What every material means; an id is its place.
     std::span<const Shader> shaders() const { return shaders_; }
     std::uint32_t material_of(const RayHit& hit) const;
+    /// The object's, the material's and the asset's.
+    std::array<float, 3> matte_ids_of(const RayHit& hit) const {
+        const Instance& instance = *instances_[hit.instance];
+        return {instance.matte_object, shaders_[material_of(hit)].matte, instance.matte_asset};
+    }
+    float material_index_of(const RayHit& hit) const { return shaders_[material_of(hit)].pass_index; }
     const Mesh& mesh_of(const RayHit& hit) const { return *meshes_[instances_[hit.instance]->mesh]; }
     const Transform& world_from_object(std::uint32_t instance) const { return instances_[instance]->world_from_object; }
     const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
@@ -137,16 +167,20 @@ class Scene {
     void commit_visibility();
     void commit_lamps();
     void commit_triangle_lights();
+    void commit_light_rules();
     bool shines(std::size_t instance) const;
     LightReach light_reach() const;
 
-    std::vector<std::unique_ptr<const Mesh>> meshes_;
-    std::vector<std::string> attribute_names_;
+    std::shared_ptr<SharedMeshes> shared_;  ///< none: it is alone
+    std::vector<std::shared_ptr<const Mesh>> meshes_;
+    std::vector<std::string> attribute_names_;  ///< where it is alone
     std::vector<Shader> shaders_;
     std::vector<std::optional<Instance>> instances_;
     std::vector<NamedLight> added_lights_;
     bool are_lamps_stale_ = false;
     std::vector<Light> lamps_, triangle_lights_;
+    std::vector<LightRules> light_rules_;  ///< of each light, by its place; empty: none has any
+    bool has_light_rules_ = false;
     std::vector<SceneTriangle> scene_triangles_;  ///< of each triangle light
     bool has_emissive_mesh_ = false, has_varying_lights_ = false;
     LightTree lamp_tree_, triangle_tree_;
@@ -160,7 +194,7 @@ class Scene {
     CameraFacts camera_facts_;
     RayTracer ray_tracer_;
     std::unique_ptr<const Media> media_;
-    bool has_transparency_ = false;
+    bool has_transparency_ = false, has_holdouts_ = false;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
     int holders_ = 0;
     std::mutex committing_, tracing_bent_cones_;

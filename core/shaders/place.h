@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/geometry/mesh.h"
+#include "core/geometry/projection.h"
 #include "core/geometry/surface_point.h"
 #include "core/simd/batch.h"
 
@@ -30,9 +31,10 @@ struct ObjectFacts {
 
 /// What a shader may ask of the camera.
 struct CameraFacts {
-    Transform world_from_camera;  ///< camera space looks down -z; unit axes
+    Transform world_from_camera;  ///< camera space is the projection's; unit axes
     Transform camera_from_world;
-    Vec2f window_scale{1.0f};  ///< from a place (x, y, -1) of camera space to [0, 1] over the full frame
+    Projection projection;
+    Vec2f window_scale{1.0f};  ///< from a place of the projection to [0, 1] over the full frame
     Vec2f window_offset{0.0f};
     float clip_start_m = 0.0f;
 };

@@ -26,6 +26,8 @@ struct Shader {
     std::optional<std::array<std::uint32_t, 3>> tangent;      ///< of the tangent, world space, of any length
     std::vector<std::shared_ptr<const TabulatedNdf>> tables;  ///< that its lobes read
     std::shared_ptr<const Medium> medium;                     ///< that fills what it surrounds; none: nothing
+    float matte = 0.0f;                                       ///< its id in mattes
+    float pass_index = 0.0f;                                  ///< Blender's own of the material
     bool has_surface = true;                                  ///< false: rays pass, and only the medium is there
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
     Program transparency;        ///< what of the program tells how much light passes; set_transparency() makes it

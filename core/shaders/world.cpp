@@ -1,5 +1,6 @@
 #include "core/shaders/world.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace pivot {
@@ -51,10 +52,9 @@ Rgb world_radiance(const WorldView& world, const Vec3f& direction, std::uint32_t
 
 WorldLight measure_world(const WorldView& world) {
     if (world.shader.is_constant()) return {world.shader.constants.emission, {}};
-    constexpr std::uint32_t points = 2;  // of each cell, along an edge
-    constexpr std::uint32_t columns = points * Environment::columns, rows = points * Environment::rows;
+    constexpr std::uint32_t columns = Environment::columns, rows = Environment::rows;
     static_assert(columns % batch_size == 0);
-    std::vector<float> brightness(Environment::rows * Environment::columns);
+    std::vector<float> brightness(rows * columns);
     Registers registers;
     Vec3b sum(Batch(0.0f));
     for (std::uint32_t y = 0; y < rows; ++y) {
@@ -67,8 +67,7 @@ WorldLight measure_world(const WorldView& world) {
             const Vec3b radiance = run(world, {at(0, 0), at(1, 0), at(0, 1)}, WordBatch(diffuse_ray), 1, registers);
             sum += radiance;
             const Lanes values = store(mean_component(abs(radiance)));
-            for (std::size_t i = 0; i < batch_size; ++i)
-                brightness[y / points * Environment::columns + (x + i) / points] += values[i];
+            std::ranges::copy(values, &brightness[y * columns + x]);
         }
     }
     const auto mean = [](const Batch& b) {

@@ -92,6 +92,7 @@ def test_built_in_panels_are_opted_in(cases: Any) -> None:
         "RENDER_PT_format",
         "RENDER_PT_output",
         "DATA_PT_lens",
+        "DATA_PT_camera_dof",
         "EEVEE_MATERIAL_PT_surface",
         "EEVEE_MATERIAL_PT_volume",
         "EEVEE_WORLD_PT_volume",
@@ -99,4 +100,4 @@ def test_built_in_panels_are_opted_in(cases: Any) -> None:
         "WORLD_PT_context_world",
     }
     assert wanted <= opted_in
-    assert not {"DATA_PT_camera_dof", "RENDER_PT_freestyle", "EEVEE_WORLD_PT_mist"} & opted_in
+    assert not {"RENDER_PT_freestyle", "EEVEE_WORLD_PT_mist"} & opted_in

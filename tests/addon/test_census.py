@@ -38,8 +38,6 @@ def test_nothing_is_said_of_what_nobody_changed(host: Host, censuses: dict[str, 
 
 def test_each_property_that_is_left_out_is_said(host: Host, censuses: dict[str, Any]) -> None:
     silent = []
-    if host.version < (4, 0):
-        silent.append("Light.use_shadow")  # EEVEE's: Cycles has a switch of its own
     if host.version < (5, 0):
         silent.append("Object.modifiers")  # none is adaptive: the object is
     assert censuses[str(host)]["silent"] == silent

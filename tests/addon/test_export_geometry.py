@@ -85,8 +85,8 @@ def test_geometry_nodes_instances(instances: dict[str, Any]) -> None:
 
 
 def test_visibility(instances: dict[str, Any]) -> None:
-    assert instances["unseen"]["camera_visible"] is False
-    assert instances["shared"]["camera_visible"] is True
+    assert instances["unseen"]["hidden_from"] == ["CAMERA"]
+    assert instances["shared"]["hidden_from"] == []
     assert "hidden_in_viewport" in instances
     assert "hidden" not in instances
     assert "flattened" in instances

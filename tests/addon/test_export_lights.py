@@ -97,6 +97,15 @@ def test_area(
     close(normal / np.linalg.norm(normal), (0, 0, -1))
 
 
+def test_a_light_is_there_for_what_it_says(host: Host, lights: Any, cases: Any) -> None:
+    close(lights["beam"]["spread_rad"], 1)
+    close(lights["square"]["spread_rad"], PI)
+    rules = cases["rules"]
+    assert rules["square"] == [[], 1024]
+    assert rules["beam"] == [["DIFFUSE", "VOLUME_SCATTER"], 1024]
+    assert rules["unshadowed"] == [["SHADOW"], 2]
+
+
 def test_area_shines_along_its_own_minus_z(lights: Any) -> None:
     assert np.cross(lights["inverted"]["half_u"], lights["inverted"]["half_v"])[2] > 0
 
@@ -126,19 +135,15 @@ def test_exposure_temperature_and_normalize(host: Host, lights: Any) -> None:
 
 def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
-        "light 'beam': Spread is not supported, it shines all round",
-        "light 'fill': lights without shadows are not supported, it casts them",
         "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
-        "object 'catcher': Shadow Visibility is not supported, it casts shadows",
         "object 'catcher': Shadow Catcher is not supported, it is shown as it is",
         "object 'hair': hair strands are not supported, they are left out",
         "object 'panel', material 'glow': in the analytic integrator its triangles light others by a mean of each, "
         "in grey. Fix: use Monte Carlo",
-        "camera 'Camera': Depth of Field is not supported, everything is in focus",
+        "object 'pane of window', material 'window': in the analytic integrator lamps do not shine through its rough "
+        "glass. Fix: use Monte Carlo",
         "scene 'Scene': Motion Blur is not supported, the picture is sharp",
-        "collection 'masked': Holdout is not supported, its objects are shown as they are",
-        "collection 'within': Indirect Only is not supported, the camera sees its objects",
-        "world 'World': Camera Visibility is not supported, the camera sees it",
+        "world 'World': Diffuse Visibility is not supported, it lights diffuse surfaces too",
     ]
     if host.version >= (4, 0):
         said.append("light 'fill': light linking is not supported, it shines on everything")

@@ -17,9 +17,9 @@ NAMES = {
     "mesh_vertex": "object 'ground'",
     "material_value": "material 'red'",
     "light_energy": "light 'lamp'",
-    "orthographic": "camera 'Camera' is orthographic",
-    "panoramic": "camera 'Camera' is panoramic",
-    "not_a_camera": "object 'ground'",
+    "camera_shift": "camera 'Camera'",
+    "camera_scale": "camera 'Camera'",
+    "camera_stop": "camera 'Camera'",
     "samples": "samples must be at least 1",
     "too_large": "a picture of 60000 x 60000 pixels takes 7",  # hundred and some GB
 }
@@ -71,7 +71,7 @@ def test_the_memory_a_picture_takes_is_known_before(host: Host, tmp_path: Path) 
 
 
 def test_strict_takes_warnings_for_errors(cases: Any) -> None:
-    assert "1 warning, which a strict render takes for errors: camera 'Camera'" in cases["strict"]["error"]
+    assert "1 warning, which a strict render takes for errors: scene 'Scene'" in cases["strict"]["error"]
     assert not cases["strict"]["picture"]
     assert cases["strict_without_warnings"] == {"error": None, "picture": True}
 

@@ -101,7 +101,6 @@ def test_a_seed_is_a_picture(folder: Path) -> None:
     first, again, one_thread, other = (
         read_passes(folder / f"{name}.exr")["first.Combined"]
         for name in ("seed0", "seed0_again", "one_thread", "seed1")
-        for name in ("seed0", "seed0_again", "one_thread", "seed1")
     )
     assert np.array_equal(first, again)
     assert np.array_equal(first, one_thread)

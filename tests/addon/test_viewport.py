@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import shutil
 import subprocess
@@ -11,16 +12,18 @@ from typing import Any
 import numpy as np
 import pytest
 from blender_host import INSIDE, environment
+from numpy.typing import NDArray
 
+Floats = NDArray[np.float32]
 COMMANDS = [shutil.which(name) for name in ("xvfb-run", "blender")]
 pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a Blender with a window")
 
 
-def in_a_window(script: str, folder: Path) -> Any:
+def in_a_window(script: str, folder: Path, *arguments: str) -> Any:
     """What inside/<script>.py, which quits its Blender, wrote to folder/result.json; its output is in folder/output."""
     screen = ["-a", "-s", f"-screen 0 1280x800x24 -fbdir {folder}"]
     blender = ["--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
-    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder)]
+    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder), *arguments]
     done = subprocess.run(command, env=environment(folder), capture_output=True, text=True, timeout=150, check=False)
     output = done.stdout + done.stderr
     (folder / "output").write_text(output)
@@ -34,6 +37,105 @@ def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
     np.testing.assert_array_equal(
         np.round([red, green, blue, red_again, analytic, lit]), [*np.eye(3), *[(1, 0, 0)] * 2, (0, 1, 0)]
     )
+
+
+@pytest.fixture(scope="module")
+def views(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return in_a_window("viewport_view_case", tmp_path_factory.mktemp("views"))
+
+
+def test_views_show_what_is_theirs_where_it_belongs(views: Any) -> None:
+    seen = {name: (view["found"], view["expected"]) for name, view in views.items() if "found" in view}
+    assert len(seen) == 17
+    for name, (found, expected) in seen.items():
+        assert found == expected, name
+
+
+def test_only_the_pixels_of_a_render_region_are_rendered(views: Any) -> None:
+    width, height = views["region"]
+    assert views["perspective"]["size"] == [width, height]
+    np.testing.assert_allclose(views["border"]["size"], [width / 2, height / 2], atol=1)
+    np.testing.assert_allclose(views["large pixels"]["size"], [width / 2, height / 2], atol=1)
+    assert views["camera border"]["size"][0] < width / 2
+
+
+def test_no_picture_is_stretched_when_the_region_is_resized(views: Any) -> None:
+    assert len(views["stretched"]) >= 2
+    np.testing.assert_allclose(views["stretched"], 1, atol=0.01)
+
+
+def denoiser() -> str:
+    """The library of this Python's bpy: Debian's Blender has none."""
+    package = importlib.util.find_spec("bpy")
+    folders = (package and package.submodule_search_locations) or []
+    found = [path for folder in folders for path in Path(folder).glob("lib/libOpenImageDenoise.so*")]
+    return str(found[0]) if found else ""
+
+
+@pytest.fixture(scope="module")
+def passes(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, dict[str, Floats]]:
+    folder = tmp_path_factory.mktemp("passes")
+    result = in_a_window("viewport_pass_case", folder, denoiser())
+    return result, {path.stem: np.load(path)[..., :3] for path in folder.glob("*.npy")}
+
+
+def test_the_viewport_shows_passes(passes: tuple[Any, dict[str, Floats]]) -> None:
+    """At the floor in the middle, and at the lamp to the right, which is half as far."""
+
+    def seen(name: str) -> list[list[float]]:
+        picture = passes[1][name]
+        height, width = picture.shape[:2]
+        return np.round(picture[height // 2, [width // 2, int(0.85 * width)]].astype(float), 1).tolist()
+
+    assert seen("depth") == [[0.5] * 3, [1.0] * 3]
+    assert seen("normal") == [[0.5, 0.5, 1.0]] * 2
+    assert seen("diffuse_color") == [[0.8] * 3, [0.0] * 3]
+    assert seen("emission") == [[0.0] * 3, [5.0, 0.0, 0.0]]
+    assert seen("method")[0] == seen("error")[0] == [0.0] * 3
+    assert seen("analytic method")[0] != [0.0] * 3
+    assert 0 < passes[1]["analytic error"].mean() < passes[1]["analytic combined"].mean()
+    assert 0 < passes[1]["indirect"].mean() < 0.1 * passes[1]["combined"].mean()
+
+
+def test_a_pause_renders_nothing_and_viewport_samples_are_its_own(passes: tuple[Any, dict[str, Floats]]) -> None:
+    result, pictures = passes
+    assert not result["paused"]["renders"]
+    assert result["combined"] == result["resumed"] == {"samples": 2, "rests": True}
+    np.testing.assert_array_equal(pictures["resumed"], pictures["combined"])
+
+
+def test_the_viewport_is_denoised_at_rest(passes: tuple[Any, dict[str, Floats]]) -> None:
+    result, pictures = passes
+    if not result["has denoiser"]:
+        pytest.skip("no Open Image Denoise here")
+    error = {
+        name: float(np.mean((picture.clip(0, 1) - pictures["converged"].clip(0, 1)) ** 2))
+        for name, picture in pictures.items()
+    }
+    assert error["denoise all"] < 0.3 * error["combined"]
+    assert error["denoise indirect"] < error["combined"]
+    assert np.any(pictures["denoise all"] != pictures["denoise indirect"])
+    np.testing.assert_array_equal(pictures["denoise none"], pictures["combined"])
+
+
+@pytest.fixture(scope="module")
+def edits(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return in_a_window("viewport_edit_case", tmp_path_factory.mktemp("edits"))
+
+
+def test_after_any_edit_the_scene_is_as_one_exported_anew(edits: Any) -> None:
+    assert edits["edits"] >= 100
+    assert edits["wrong"] == []
+    assert [wrong for _, wrong in edits["undone"]] == [[]] * 8
+    assert [extent for extent, _ in edits["undone"][:4]] == [1.5, 1, 1.5, 1]
+
+
+def test_an_edit_exports_only_the_meshes_that_it_changes(edits: Any) -> None:
+    assert [edits["meshes"][kind] for kind in ("color", "power", "move_lamp")] == [0, 0, 0]
+    assert edits["meshes"]["vertices"] >= 1
+    assert edits["triangles"] >= 990_000
+    for moved in ("object", "lamp"):
+        assert edits[moved] == {"meshes": 0, "exports": 1, "wrong": []}
 
 
 @pytest.fixture(scope="module")
@@ -63,9 +165,9 @@ def test_settings_start_samples_again_and_export_nothing(motion: Any) -> None:
 
 def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: Any) -> None:
     assert motion["text"] == [
-        "1 thing is not shown as set: light 'fill': lights without shadows are not supported, it casts them"
+        "1 thing is not shown as set: object 'catcher': Shadow Catcher is not supported, it is shown as it is"
     ]
-    assert motion["output"].count("Warning: Pivot: light 'fill'") == 1
+    assert motion["output"].count("Warning: Pivot: object 'catcher'") == 1
 
 
 def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     kinds = (ROOT / "core/bsdf/lobe.h").read_text()
     first_lobe = '#include "core/bsdf/lobes/'
     kinds = kinds.replace(first_lobe, f'{first_lobe}added_lobe.h"\n{first_lobe}', 1)
-    kinds, rows = re.subn(r"(using LobeKinds = std::tuple<.*)>;", r"\1, Minnaert<T>>;", kinds)
+    kinds, rows = re.subn(r"(using LobeKinds =\s+std::tuple<[^;]*)>;", r"\1, Minnaert<T>>;", kinds)
     assert rows == 1
     (lobes.parent / "lobe.h").write_text(kinds)
 

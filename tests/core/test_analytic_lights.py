@@ -32,11 +32,13 @@ def lit_by(light: str, alpha: float = 0.1, radius_m: float = 0.3) -> pivot_core.
     scene.add_instances("box", add_box(scene, (-0.9, -0.3, 0), (-0.5, 0.3, 0.5)), place(), [plastic])
     height = 1.5
     if light in ("quad", "half"):
-        scene.add_instances("quad", add_plane(scene, 0.5), place(z=height), [glow], camera_visible=False)
+        scene.add_instances("quad", add_plane(scene, 0.5), place(z=height), [glow], hidden_from=["CAMERA"])
     elif light == "area":
         scene.add_light("area", pivot_core.AreaLight((0, 0, height), (0, 0.5, 0), (0.5, 0, 0), EMISSION))
     elif light == "bulb":
-        scene.add_instances("bulb", add_sphere(scene, 16), place(0, 0, height, radius_m), [glow], camera_visible=False)
+        scene.add_instances(
+            "bulb", add_sphere(scene, 16), place(0, 0, height, radius_m), [glow], hidden_from=["CAMERA"]
+        )
     elif light == "sphere":
         intensity = np.pi * radius_m**2 * np.array(EMISSION)
         scene.add_light("sphere", pivot_core.SphereLight((0, 0, height), radius_m, intensity))

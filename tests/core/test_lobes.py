@@ -26,6 +26,10 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 RINGS, AZIMUTHS = np.linspace(0, 2, 65), 64
 
 
+def direction(theta: float, phi: float = 0.4) -> tuple[float, float, float]:
+    return (np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta))
+
+
 def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
     """A lobe with parameters from most of their ranges, those without an end up to one more than the least; none from
     the lowest tenth, where lobes may be finer than the cells that count them."""
@@ -34,6 +38,8 @@ def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
     for name, (count, low, high) in pivot_core.LOBES[kind].items():
         drawn = low + (min(high, low + 1) - low) * random.uniform(0.1, 1, count)
         values[name] = tuple(drawn) if count > 1 else float(drawn[0])
+    if "normal" in values:
+        values["normal"] = direction(random.uniform(0, 0.2), random.uniform(0, 2 * np.pi))
     if kind in pivot_core.LOBES_WITH_NDF:
         values["ndf"] = two_yarns(*random.uniform((0.1, 0.2, 0.1), (0.2, 0.4, 0.5)))
     return kind, values
@@ -78,10 +84,6 @@ WITH_CLOSED_FORMS = materials(lambda kind, seed: with_closed_form(random_lobe(ki
 CASES = list(itertools.product(MATERIALS, VIEWS_RAD))
 
 
-def direction(theta: float, phi: float = 0.4) -> tuple[float, float, float]:
-    return (np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta))
-
-
 def evaluate(material: pivot_core.Material, wo: tuple[float, float, float], wi: Array) -> tuple[Array, Array]:
     """BSDF times |cos| (n, 3) and density (n,)."""
     value, pdf = material.evaluate(wo, wi.reshape(-1, 3).astype(np.float32))
@@ -122,10 +124,11 @@ def test_samples_follow_their_density(name: str, theta: float) -> None:
 
 @pytest.mark.parametrize(("name", "theta"), CASES)
 def test_albedo_is_the_integral_of_the_lobes(name: str, theta: float) -> None:
-    """Which is what a furnace of radiance 1 shows; about, for Fresnel is that of one angle."""
+    """Which is what a furnace of radiance 1 shows; about, for Fresnel is that of one angle. Less than a millionth is
+    never chosen."""
     wo, material = direction(theta), MATERIALS[name]
     scattered = [integral(lambda omega, c=c: evaluate(material, wo, omega)[0][..., c]).sum() for c in range(3)]
-    np.testing.assert_allclose(np.mean(material.albedo(wo)), np.mean(scattered), rtol=0.1)
+    np.testing.assert_allclose(np.mean(material.albedo(wo)), np.mean(scattered), rtol=0.1, atol=1e-6)
 
 
 def on_floor(material: pivot_core.Material, lit_from: str) -> pivot_core.Scene:
@@ -197,8 +200,10 @@ def test_light_below_does_not_leak_through_what_only_reflects() -> None:
     for name, material in MATERIALS.items():
         wi = np.array([[0.6, 0.0, -0.8], [0.0, 0.0, -1.0]])
         comes_through = evaluate(material, direction(0.5), wi)[0].max() > 0
-        seen = render(on_floor(material, "below"), samples=4, max_bounces=0)[..., :3]
-        assert (seen.max() > 0.3) == comes_through, name
+        scene = on_floor(material, "below")
+        scene.set_world((0, 0, 0))
+        seen = render(scene, samples=4, max_bounces=0)[..., :3]
+        assert (seen.max() > 0) == comes_through, name
 
 
 def test_every_light_that_comes_through_can_be_chosen() -> None:
@@ -224,6 +229,27 @@ def test_a_translucent_sheet_is_a_white_one_seen_from_behind() -> None:
     np.testing.assert_allclose(picture["through", "below"], picture["white", "above"], rtol=0.02)
 
 
+@pytest.mark.parametrize("kind", ["oren_nayar", "disney_diffuse", "velvet"])
+def test_diffuse_lobes_are_reciprocal(kind: str) -> None:
+    """The BRDF is one from either end: not of sheen, a fit with the cosine in it."""
+    material = pivot_core.Material(lobes=[random_lobe(kind, 3)])
+    for theta, theta_i in itertools.combinations(VIEWS_RAD, 2):
+        ends = direction(theta, 0.4), direction(theta_i, 1.9)
+        there, back = (evaluate(material, a, np.array([b]))[0] / b[2] for a, b in (ends, ends[::-1]))
+        np.testing.assert_allclose(there, back, rtol=1e-4)
+
+
+@pytest.mark.parametrize("roughness", [0.3, 1.0])
+def test_a_rough_white_surface_keeps_all_light(roughness: float) -> None:
+    material = pivot_core.Material(lobes=[("oren_nayar", {"roughness": roughness})])
+    for theta in VIEWS_RAD:
+        wo = direction(theta)
+        np.testing.assert_allclose(material.albedo(wo), 1, rtol=1e-5)
+        assert integral(lambda omega, wo=wo: evaluate(material, wo, omega)[0][..., 0]).sum() == pytest.approx(
+            1, rel=1e-3
+        )
+
+
 def test_a_base_in_shares_is_the_whole() -> None:
     """Halves of one material, the second a further lobe, are that material."""
     whole = {"diffuse": (0.4, 0.2, 0.6), "alpha": 0.2, "dielectric_weight": 1.0}
@@ -238,7 +264,7 @@ def test_a_base_in_shares_is_the_whole() -> None:
 @pytest.mark.parametrize(
     ("lobes", "said"),
     [
-        ([("velvet", {})], "lobe 'velvet': there is no such kind; there are base, translucent, tabulated, dielectric"),
+        ([("felt", {})], f"lobe 'felt': there is no such kind; there are {', '.join(KINDS)}"),
         ([("translucent", {"colour": (1, 1, 1)})], "lobe 'translucent': its parameters are color"),
         ([("translucent", {"color": 1.0})], "lobe 'translucent': color must be three numbers"),
         ([("base", {"alpha": 2.0})], "lobe 'base': alpha must be finite and in .0"),
@@ -255,7 +281,8 @@ def test_bad_lobes_are_named(lobes: list[tuple[str, dict[str, object]]], said: s
 
 @pytest.mark.parametrize(("name", "lit_from"), PICTURES)
 def test_the_analytic_integrator_knows_every_lobe(name: str, lit_from: str) -> None:
-    """Its picture is Monte Carlo's within the error that it predicts and what Monte Carlo leaves; the world apart."""
+    """Its picture is Monte Carlo's within the error that it predicts and what Monte Carlo leaves; the world apart.
+    Upright fibres send next to nothing here: a millionth of the lights' radiance is not seen."""
     scene = on_floor(WITH_CLOSED_FORMS[name], lit_from)
     scene.set_world((0, 0, 0))
     session = pivot_core.Session(
@@ -266,6 +293,7 @@ def test_the_analytic_integrator_knows_every_lobe(name: str, lit_from: str) -> N
         pass
     ours = session.read("Combined")[..., :3].astype(float).mean(-1)
     error = session.read("Error")[..., 0] * ours
-    random = render(scene, samples=1024, max_bounces=0)[..., :3].astype(float).mean(-1)
-    assert np.abs(ours.mean() - random.mean()) <= error.mean() + 0.005 * random.mean()
-    np.testing.assert_allclose(ours, random, atol=(3 * error + 0.05 * random.mean()).max())
+    samples = 4096 if name.startswith("velvet") else 1024  # few of which find upright fibres
+    random = render(scene, samples=samples, max_bounces=0)[..., :3].astype(float).mean(-1)
+    assert np.abs(ours.mean() - random.mean()) <= error.mean() + 0.005 * random.mean() + 1e-6
+    np.testing.assert_allclose(ours, random, atol=(3 * error + 0.05 * random.mean()).max() + 1e-6)

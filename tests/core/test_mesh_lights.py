@@ -96,7 +96,7 @@ def floor_under(light: str, rings: int = 48) -> pivot_core.Scene:
     scene.add_instances("floor", add_plane(scene, 10), place(), [grey])
     if light == "mesh":
         glow = scene.add_material("glow", pivot_core.Material(emission=EMISSION))
-        scene.add_instances("bulb", add_sphere(scene, rings), place(-1, 0, 1, 0.2), [glow], camera_visible=False)
+        scene.add_instances("bulb", add_sphere(scene, rings), place(-1, 0, 1, 0.2), [glow], hidden_from=["CAMERA"])
     else:
         intensity = np.pi * 0.2**2 * np.array(EMISSION)
         scene.add_light("bulb", pivot_core.SphereLight((-1, 0, 1), 0.2, intensity))
@@ -125,7 +125,7 @@ def test_only_triangles_of_an_emissive_slot_shine_and_both_of_their_sides() -> N
             "panel", corners, np.arange(4), np.array([[0, 1, 2], [0, 2, 3]]), triangle_slots=np.array([0, 1])
         )
         ids = [scene.add_material(f"{i}", material) for i, material in enumerate(materials)]
-        scene.add_instances("panel", panel, place(), ids, camera_visible=False)
+        scene.add_instances("panel", panel, place(), ids, hidden_from=["CAMERA"])
         set_camera(scene, (0, -0.1, 20 if z < 0 else -20), (0, 0, z), (8, 8), 0.05)
         return float(render(scene, samples=64, max_bounces=0, light_sampling="LIGHT")[..., :3].mean())
 

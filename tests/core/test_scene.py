@@ -67,8 +67,8 @@ EDITS: dict[str, Callable[[Edited], object]] = {
     "camera": lambda e: set_camera(e.scene, (1, -5, 2), (0, 0, 0.5), (24, 18), 0.35),
     "a move": lambda e: e.scene.set_instance_transform(e.ball, place(0.4, -0.6, 0.7, 0.5)[0]),
     "a move of light": lambda e: e.scene.set_instance_transform(e.bulb, place(-0.9, -0.5, 1.2, 0.3)[0]),
-    "hidden from the camera": lambda e: e.scene.set_instance_visibility(e.ball, camera_visible=False),
-    "light hidden from the camera": lambda e: e.scene.set_instance_visibility(e.bulb, camera_visible=False),
+    "hidden from the camera": lambda e: e.scene.set_instance_visibility(e.ball, hidden_from=["CAMERA"]),
+    "light hidden from the camera": lambda e: e.scene.set_instance_visibility(e.bulb, hidden_from=["CAMERA"]),
     "an instance less": lambda e: e.scene.remove_instance(e.ball),
     "light less": lambda e: e.scene.remove_instance(e.bulb),
     "more light": lambda e: e.scene.add_instances("more", e.panel, place(0, 0, 1.8), [e.red_glow]),
@@ -114,9 +114,9 @@ def test_an_instance_hidden_and_shown_is_what_it_was() -> None:
     edited.scene.set_instance_transform(edited.bulb, place(-0.9, -0.5, 1.2, 0.3)[0])
     shown = picture(edited, "monte carlo")
     for instance in (edited.ball, edited.bulb):
-        edited.scene.set_instance_visibility(instance, camera_visible=False)
+        edited.scene.set_instance_visibility(instance, hidden_from=["CAMERA"])
         assert (picture(edited, "monte carlo") != shown).any()
-        edited.scene.set_instance_visibility(instance, camera_visible=True)
+        edited.scene.set_instance_visibility(instance, hidden_from=[])
         np.testing.assert_array_equal(picture(edited, "monte carlo"), shown)
 
 
@@ -128,7 +128,7 @@ def test_an_edit_that_is_refused_changes_nothing() -> None:
     with pytest.raises(ValueError, match="material 9 is not in the scene"):
         edited.scene.set_instance_materials(edited.ball, [9])
     with pytest.raises(ValueError, match="instance 9 is not in the scene"):
-        edited.scene.set_instance_visibility(9, camera_visible=False)
+        edited.scene.set_instance_visibility(9, hidden_from=["CAMERA"])
     second_is_broken = np.concatenate([place(0, 0, 2), np.full((1, 4, 4), np.nan, np.float32)])
     with pytest.raises(ValueError, match="object 'two': its transform is not finite"):
         edited.scene.add_instances("two", edited.panel, second_is_broken, [edited.grey])

@@ -213,7 +213,7 @@ def test_an_object_hidden_from_the_camera_still_casts_its_shadow() -> None:
     scene.add_light("key", pivot_core.SphereLight((0, 0, 20), 0.01, (100, 100, 100)))
     set_camera(scene, (0, 0, 10), size=(9, 9), half_width=0.02)
     lit = render(scene, samples=4, max_bounces=0)
-    scene.add_instances("lid", add_sphere(scene), place(0, 0, 3), [chalk], camera_visible=False)
+    scene.add_instances("lid", add_sphere(scene), place(0, 0, 3), [chalk], hidden_from=["CAMERA"])
     assert lit[..., 0].min() > 0.05
     assert render(scene, samples=4, max_bounces=0)[..., 0].max() == 0.0
 

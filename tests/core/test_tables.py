@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pivot_core
 import pivot_core.distributions as pd
 import pivot_core.tables as tables
 import pytest
@@ -15,6 +16,8 @@ import ggx_dielectric  # noqa: E402
 import ggx_glass  # noqa: E402
 import ggx_ltc  # noqa: E402
 import ggx_sptd  # noqa: E402
+import sheen_ltc  # noqa: E402
+import velvet_albedo  # noqa: E402
 from errors import random_views  # noqa: E402
 from ggx_average_albedo import average_albedo  # noqa: E402
 from quadrature import view  # noqa: E402
@@ -191,3 +194,19 @@ def test_glass_average_is_the_mean_over_the_hemisphere() -> None:
         cosines = (np.arange(2000) + 0.5) / 2000
         both = sum(tables.ggx_glass_albedo(alpha, cosines, eta))
         assert tables.ggx_glass_average_albedo(alpha, eta) == pytest.approx((2 * cosines * both).mean(), abs=5e-3)
+
+
+@pytest.mark.parametrize(("row", "column"), [(31, 31), (20, 8), (10, 2), (12, 20)])
+def test_sheen_table_is_what_its_program_fits(row: int, column: int) -> None:
+    walks = sheen_ltc.reflected(row / 31, column / 31, np.random.default_rng(2))
+    albedo, a, b = stored("sheen_ltc", 32, 32, 3)[row, column]
+    rarity = np.sqrt((1 - walks.albedo) / len(walks.wi))
+    assert albedo == pytest.approx(walks.albedo, rel=6 * rarity)
+    assert (a, b) == pytest.approx(sheen_ltc.fit(walks.wi), rel=0.02, abs=10 / np.sqrt(len(walks.wi)))
+
+
+def test_velvet_table_is_the_lobes_albedo() -> None:
+    random = np.random.default_rng(1)
+    for sigma, cos_o in zip(random.uniform(0.2, 1, 20), random.uniform(0.05, 1, 20), strict=True):
+        material = pivot_core.Material(lobes=[("velvet", {"sigma": sigma})])
+        assert material.albedo(tuple(view(cos_o)))[0] == pytest.approx(velvet_albedo.albedo(sigma, cos_o), rel=0.03)

@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any
-
-from .table import LeftOut, Table
-
-
-def _shadows_are_cycles(light: Any) -> bool:
-    """Whether Cycles has no switch of its own for shadows, as in Blender 3.4."""
-    return not hasattr(getattr(light, "cycles", None), "cast_shadow")
-
+from .table import Table
 
 LIGHT = {
     "Light": Table(
         used="""
         type color energy node_tree use_nodes exposure normalize use_temperature temperature temperature_color
-        shadow_soft_size use_soft_falloff spot_size spot_blend angle shape size size_y animation_data
+        shadow_soft_size use_soft_falloff spot_size spot_blend angle shape size size_y animation_data use_shadow spread
         """,
         parts="cycles",
-        left_out=(
-            LeftOut("use_shadow", True, "it casts them", what="lights without shadows are", when=_shadows_are_cycles),
-            LeftOut("spread", math.pi, "it shines all round"),
-        ),
         # EEVEE's, and what older Blenders kept from before it.
         no_meaning="""
         distance specular_factor diffuse_factor volume_factor use_custom_distance cutoff_distance falloff_type
@@ -36,11 +23,7 @@ LIGHT = {
         """,
     ),
     "CyclesLightSettings": Table(
-        used="is_portal",
-        left_out=(
-            LeftOut("cast_shadow", True, "it casts them", what="lights without shadows are"),
-            LeftOut("max_bounces", 1024, "it lights every bounce"),
-        ),
+        used="is_portal cast_shadow max_bounces",
         no_meaning="name use_multiple_importance_sampling is_caustics_light",
     ),
 }

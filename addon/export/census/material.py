@@ -6,12 +6,12 @@ from .table import LeftOut, Table
 
 MATERIAL = {
     "Material": Table(
-        used="node_tree use_nodes diffuse_color animation_data",
+        used="node_tree use_nodes diffuse_color pass_index animation_data",
         parts="cycles",
         # EEVEE's, the viewport's, and how displacement is done, which is reported by the nodes.
         no_meaning="""
         blend_method shadow_method alpha_threshold show_transparent_back use_backface_culling use_screen_refraction
-        use_sss_translucency refraction_depth preview_render_type use_preview_world pass_index texture_paint_images
+        use_sss_translucency refraction_depth preview_render_type use_preview_world texture_paint_images
         texture_paint_slots paint_active_slot paint_clone_slot specular_color roughness specular_intensity metallic
         line_color line_priority grease_pencil is_grease_pencil lineart surface_render_method displacement_method
         use_transparency_overlap use_backface_culling_shadow use_backface_culling_lightprobe_volume

@@ -25,6 +25,7 @@ NODE = {
     "ShaderNodeBsdfGlass": Table(used="distribution"),
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
+    "ShaderNodeBsdfSheen": Table(used="distribution"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
@@ -80,6 +81,13 @@ NODE = {
         used="image image_user texture_mapping projection projection_blend interpolation extension",
         no_meaning="color_mapping",
     ),
+    "ShaderNodeTexSky": Table(
+        used="""
+        texture_mapping sky_type sun_direction turbidity sun_disc sun_size sun_intensity sun_elevation sun_rotation
+        altitude air_density dust_density aerosol_density@5.0 ozone_density
+        """,
+        no_meaning="color_mapping ground_albedo",
+    ),
     "ShaderNodeTexEnvironment": Table(
         used="image image_user texture_mapping projection interpolation", no_meaning="color_mapping"
     ),
@@ -117,33 +125,29 @@ _THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
-        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha",
+        "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha,"
+        "Anisotropic, Anisotropic Rotation, Tangent, Coat Weight, Coat Roughness, Coat IOR, Coat Tint, Coat Normal,"
+        "Clearcoat, Clearcoat Roughness, Clearcoat Normal, Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint,"
+        "Sheen Roughness",
         left_out=(
             ("Subsurface Weight", 0.0),
             ("Subsurface", 0.0),
-            ("Coat Weight", 0.0),
-            ("Clearcoat", 0.0),
-            ("Sheen Weight", 0.0),
-            ("Sheen", 0.0),
-            ("Anisotropic", 0.0),
-            ("Diffuse Roughness", 0.0),
             ("Thin Film Thickness", 0.0),
         ),
         no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
-        "Anisotropic Rotation, Tangent, Sheen Tint, Sheen Roughness, Clearcoat Roughness, Clearcoat Normal,"
-        "Coat Roughness, Coat IOR, Coat Tint, Coat Normal, Thin Wall@5.2,"
+        "Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
-    "ShaderNodeBsdfDiffuse": Inputs("Color, Normal", left_out=(("Roughness", 0.0),), no_meaning="Weight"),
+    "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
-    "ShaderNodeBsdfAnisotropic": Inputs(
-        "Color, Roughness, Normal", left_out=(("Anisotropy", 0.0),), no_meaning="Rotation, Tangent, Weight"
-    ),
+    "ShaderNodeBsdfAnisotropic": Inputs("Color, Roughness, Normal, Anisotropy, Rotation, Tangent", no_meaning="Weight"),
     "ShaderNodeBsdfMetallic": Inputs(
-        "Base Color, Edge Tint, Roughness, Normal",
-        left_out=(("Anisotropy", 0.0), *_THIN_FILM),
-        no_meaning="IOR, Extinction, Rotation, Tangent, Weight, Thin Film IOR@5.0",
+        "Base Color, Edge Tint, Roughness, Normal, IOR, Extinction, Anisotropy, Rotation, Tangent",
+        left_out=_THIN_FILM,
+        no_meaning="Weight, Thin Film IOR@5.0",
     ),
     "ShaderNodeBsdfGlass": Inputs(
         "Color, Roughness, IOR, Normal",
@@ -244,4 +248,5 @@ INPUTS = {
     "ShaderNodeVectorDisplacement": Inputs(no_meaning="Vector, Midlevel, Scale"),
     "ShaderNodeTexImage": Inputs("Vector"),
     "ShaderNodeTexEnvironment": Inputs("Vector"),
+    "ShaderNodeTexSky": Inputs("Vector"),
 }

@@ -7,10 +7,6 @@ from typing import Any
 from .table import LeftOut, Table
 
 
-def _is_light(blender_object: Any) -> bool:
-    return blender_object.type == "LIGHT"
-
-
 def _is_surface(blender_object: Any) -> bool:
     return blender_object.type in {"MESH", "VOLUME"}
 
@@ -36,7 +32,8 @@ OBJECT = {
     ),
     "Object": Table(
         used="""
-        data type mode material_slots matrix_world hide_render visible_camera show_instancer_for_render
+        data type mode material_slots matrix_world hide_render show_instancer_for_render visible_camera visible_diffuse
+        visible_glossy visible_transmission visible_volume_scatter visible_shadow is_holdout
         parent parent_type parent_vertices parent_bone use_parent_final_indices parent_bone_head_tail_factor@5.2
         location rotation_quaternion rotation_axis_angle rotation_euler rotation_mode scale
         delta_location delta_rotation_euler delta_rotation_quaternion delta_scale
@@ -44,18 +41,10 @@ OBJECT = {
         instance_type instance_collection instance_faces_scale use_instance_faces_scale use_instance_vertices_rotation
         is_instancer is_from_instancer is_from_set active_shape_key active_shape_key_index show_only_shape_key
         use_shape_key_edit_mode animation_data pose field soft_body rigid_body rigid_body_constraint collision
-        use_simulation_cache vertex_groups
+        use_simulation_cache vertex_groups pass_index
         """,
         parts="light_linking cycles",
         left_out=(
-            LeftOut("visible_diffuse", True, "it lights diffuse surfaces too", when=_is_light),
-            LeftOut("visible_glossy", True, "it lights glossy surfaces too", when=_is_light),
-            LeftOut("visible_volume_scatter", True, "it lights fog too", when=_is_light),
-            LeftOut("visible_diffuse", True, "diffuse surfaces reflect it", when=_is_surface),
-            LeftOut("visible_glossy", True, "glossy surfaces reflect it", when=_is_surface),
-            LeftOut("visible_volume_scatter", True, "light that fog scatters meets it", when=_is_surface),
-            LeftOut("visible_shadow", True, "it casts shadows", when=_is_surface),
-            LeftOut("is_holdout", False, "it is shown as it is", when=_is_surface),
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
             LeftOut("particle_systems", _without_strands, "they are left out", what="hair strands are"),
             LeftOut(
@@ -64,14 +53,14 @@ OBJECT = {
             LeftOut("shadow_terminator_normal_offset", 0.0, "shadows begin where they do without"),
             LeftOut("shadow_terminator_shading_offset", 0.0, "shadows begin where they do without"),
         ),
-        # Light groups are passes, and colour, pass index and raycasts are for nodes that are reported themselves.
+        # Light groups are passes, and colour and raycasts are for nodes that are reported themselves.
         no_meaning="""
         bound_box use_camera_lock_parent active_material active_material_index dimensions lock_location lock_rotation
         lock_rotation_w lock_rotations_4d lock_scale grease_pencil_modifiers shader_effects face_maps empty_display_type
         empty_display_size empty_image_offset image_user empty_image_depth show_empty_image_perspective
         show_empty_image_orthographic show_empty_image_only_axis_aligned use_empty_image_alpha empty_image_side
-        add_rest_position_attribute pass_index color hide_viewport hide_select show_instancer_for_viewport
-        visible_transmission display_type show_bounds display_bounds_type show_name show_axis
+        add_rest_position_attribute color hide_viewport hide_select show_instancer_for_viewport
+        display_type show_bounds display_bounds_type show_name show_axis
         show_texture_space show_wire show_all_edges use_grease_pencil_lights show_transparent show_in_front pose_library
         use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z lightgroup
         animation_visualization motion_path hide_probe_volume hide_probe_sphere hide_probe_plane selection_sets

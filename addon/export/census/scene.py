@@ -130,16 +130,16 @@ SCENE = {
         used="""
         name material_override world_override samples use use_solid use_sky layer_collection objects depsgraph
         use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color use_pass_emit
+        use_pass_diffuse_direct use_pass_diffuse_indirect use_pass_glossy_direct use_pass_glossy_indirect
+        use_pass_glossy_color use_pass_transmission_direct use_pass_transmission_indirect use_pass_transmission_color
+        use_pass_cryptomatte_object use_pass_cryptomatte_material use_pass_cryptomatte_asset pass_cryptomatte_depth
+        use_pass_environment use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index
         """,
         parts="cycles",
         left_out=(
             *_missing_passes("""
-                use_pass_vector use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index use_pass_shadow
-                use_pass_ambient_occlusion use_pass_environment use_pass_diffuse_direct use_pass_diffuse_indirect
-                use_pass_glossy_direct use_pass_glossy_indirect use_pass_glossy_color use_pass_transmission_direct
-                use_pass_transmission_indirect use_pass_transmission_color use_pass_subsurface_direct
-                use_pass_subsurface_indirect use_pass_subsurface_color use_pass_cryptomatte_object
-                use_pass_cryptomatte_material use_pass_cryptomatte_asset
+                use_pass_vector use_pass_shadow use_pass_ambient_occlusion use_pass_subsurface_direct
+                use_pass_subsurface_indirect use_pass_subsurface_color
                 """),
             LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
             LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
@@ -147,7 +147,7 @@ SCENE = {
         # Hair and motion blur are reported where they are.
         no_meaning="""
         pass_alpha_threshold eevee active_aov active_aov_index active_lightgroup active_lightgroup_index
-        pass_cryptomatte_depth use_pass_cryptomatte_accurate use_ao use_strand use_motion_blur
+        use_pass_cryptomatte_accurate use_ao use_strand use_motion_blur
         active_layer_collection use_freestyle freestyle_settings has_export_collections use_grease_pencil
         use_pass_grease_pencil
         """,
@@ -166,11 +166,7 @@ SCENE = {
         """,
     ),
     "LayerCollection": Table(
-        used="exclude children collection hide_viewport",
-        left_out=(
-            LeftOut("holdout", False, "its objects are shown as they are"),
-            LeftOut("indirect_only", False, "the camera sees its objects"),
-        ),
+        used="exclude children collection hide_viewport holdout indirect_only",
         no_meaning="name is_visible",
     ),
 }

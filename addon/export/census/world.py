@@ -6,11 +6,11 @@ from .table import LeftOut, Table
 
 WORLD = {
     "World": Table(
-        used="color node_tree use_nodes animation_data",
+        used="color node_tree use_nodes mist_settings animation_data",
         parts="cycles cycles_visibility",
-        # EEVEE's sun, the mist and light group passes, and what fast GI takes.
+        # EEVEE's sun, light group passes, and what fast GI takes.
         no_meaning="""
-        light_settings mist_settings lightgroup use_eevee_finite_volume probe_resolution sun_threshold sun_angle
+        light_settings lightgroup use_eevee_finite_volume probe_resolution sun_threshold sun_angle
         use_sun_shadow sun_shadow_maximum_resolution sun_shadow_filter_radius use_sun_shadow_jitter
         sun_shadow_jitter_overblur
         """,
@@ -28,11 +28,11 @@ WORLD = {
     ),
     "CyclesVisibilitySettings": Table(
         left_out=(
-            LeftOut("camera", True, "the camera sees it", what="Camera Visibility is"),
             LeftOut("diffuse", True, "it lights diffuse surfaces too", what="Diffuse Visibility is"),
             LeftOut("glossy", True, "it lights glossy surfaces too", what="Glossy Visibility is"),
             LeftOut("scatter", True, "it lights fog too", what="Volume Scatter Visibility is"),
         ),
+        used="camera",
         no_meaning="name transmission shadow",
     ),
 }

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...report import Reporter
 from ..program import Program, UnknownOp, Value
-from . import colours, curves, geometry, images, maths, normals, object, ray, textures
+from . import colours, curves, geometry, images, maths, normals, object, ray, skies, textures
 from .row import Row
 
 MID_GREY = 0.5
@@ -27,6 +27,7 @@ ROWS: dict[str, Row] = (
     | geometry.ROWS
     | object.ROWS
     | ray.ROWS
+    | skies.ROWS
     | normals.ROWS
     | textures.ROWS
     | images.ROWS
@@ -171,10 +172,18 @@ def number(target: Socket, owner: Owner, unknown: float | None = None) -> Value:
     return _as_number(value, kind)
 
 
-def normal(feed: Socket, owner: Owner) -> Value | None:
-    """What a shader's Normal input is turned to, world space; None: the surface's own."""
-    target = feed.find_input("Normal")
+def normal(feed: Socket, owner: Owner, *identifiers: str) -> Value | None:
+    """What a shader's Normal input, or one of these, is turned to, world space; None: the surface's own."""
+    target = feed.find_input(*(identifiers or ("Normal",)))
     return colour(target, owner) if target is not None and is_linked(target) else owner.displaced_normal
+
+
+def tangent(feed: Socket, owner: Owner) -> Value:
+    """Which way a shader's Tangent input points, world space."""
+    target = feed.find_input("Tangent")
+    if target is not None and is_linked(target):
+        return colour(target, owner)
+    return geometry.default_tangent(Node(feed, owner))
 
 
 def displaced(target: Socket, owner: Owner) -> Owner:

@@ -63,10 +63,15 @@ def _geometry(node: Node) -> Value:
     if node.output in _GEOMETRY:
         return node.op(_GEOMETRY[node.output])
     if node.output == "Tangent":
-        return _radial_tangent(node, "Z")
+        return default_tangent(node)
     if node.output == "Random Per Island":
         return mesh_attribute(node, "island:")[0]
     return mesh_attribute(node, "pointiness:", 0.0)[0]
+
+
+def default_tangent(node: Node) -> Value:
+    """Of meshes: around z."""
+    return _radial_tangent(node, "Z")
 
 
 def _radial_tangent(node: Node, axis: str) -> Value:

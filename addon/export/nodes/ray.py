@@ -5,9 +5,9 @@ from __future__ import annotations
 from ..program import Value
 from .row import Node, Row
 
-_CAMERA_RAY, _DIFFUSE_RAY, _GLOSSY_RAY, _TRANSMISSION_RAY, _SHADOW_RAY = (1 << bit for bit in range(5))  # RayKind
+CAMERA_RAY, _DIFFUSE_RAY, _GLOSSY_RAY, _TRANSMISSION_RAY, _SHADOW_RAY = (1 << bit for bit in range(5))  # RayKind
 _RAYS = {
-    "Is Camera Ray": _CAMERA_RAY,
+    "Is Camera Ray": CAMERA_RAY,
     "Is Shadow Ray": _SHADOW_RAY,
     "Is Diffuse Ray": _DIFFUSE_RAY,
     "Is Glossy Ray": _GLOSSY_RAY,

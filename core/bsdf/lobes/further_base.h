@@ -17,7 +17,8 @@ struct FurtherBase {
         LobeParameter{"conductor_f0", 3, 0.0f, most},     LobeParameter{"conductor_f90", 3, 0.0f, most},
         LobeParameter{"conductor_weight", 1, 0.0f, most}, LobeParameter{"dielectric_weight", 1, 0.0f, most},
         LobeParameter{"dielectric_ior", 1, 1.0f, most},   LobeParameter{"dielectric_tint", 3, 0.0f, most},
-        LobeParameter{"multiscatter", 1, 0.0f, 1.0f},     LobeParameter{"weight", 1, 0.0f, most}};
+        LobeParameter{"multiscatter", 1, 0.0f, 1.0f},     LobeParameter{"weight", 1, 0.0f, most},
+        LobeParameter{"conductor_dip", 3, 0.0f, most}};
     static constexpr bool reflects = true, transmits = false, has_closed_form = true;
 
     BaseOf<T> base;
@@ -26,6 +27,7 @@ struct FurtherBase {
         return {make_base(material, wo_local)};
     }
     Vec3<T> eval(const Vec3<T>&, const Vec3<T>& wi_local) const { return eval_base(base, wi_local); }
+    Vec3<T> eval_diffuse(const Vec3<T>&, const Vec3<T>& wi_local) const { return pivot::eval_diffuse(base, wi_local); }
     T pdf_omega(const Vec3<T>&, const Vec3<T>& wi_local) const { return pdf_omega_base(base, wi_local); }
     Vec3<T> sample(const Vec3<T>&, T u_lobe, const Vec2<T>& u) const { return sample_base(base, u_lobe, u); }
     Vec3<T> albedo(const Vec3<T>&) const { return albedo_base(base); }

@@ -48,8 +48,10 @@ struct Tabulated {
                 wo_local, wi_local)
                 .x;
         const T cos_oh = dot(wo_local, normalize(wo_local + wi_local));
-        return diffuse_color * (max(wi_local.z, T(0)) * T(1.0f / pi<float>)) +
-               select(facets > T(0), fresnel.at(cos_oh) * facets, Vec3<T>(T(0)));
+        return eval_diffuse(wo_local, wi_local) + select(facets > T(0), fresnel.at(cos_oh) * facets, Vec3<T>(T(0)));
+    }
+    Vec3<T> eval_diffuse(const Vec3<T>&, const Vec3<T>& wi_local) const {
+        return diffuse_color * (max(wi_local.z, T(0)) * T(1.0f / pi<float>));
     }
     T pdf_omega(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         const T facets = of_tables(

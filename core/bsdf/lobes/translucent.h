@@ -22,6 +22,7 @@ struct Translucent {
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         return color * pdf_omega(wo_local, wi_local);
     }
+    Vec3<T> eval_diffuse(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const { return eval(wo_local, wi_local); }
     T pdf_omega(const Vec3<T>&, const Vec3<T>& wi_local) const { return max(-wi_local.z, T(0)) * T(1.0f / pi<float>); }
     Vec3<T> sample(const Vec3<T>&, T, const Vec2<T>& u) const {
         const Vec3<T> wi_local = sample_cosine_hemisphere(u);

@@ -24,12 +24,21 @@ Vec3b position_camera(const Place& place) {
                                   : camera_from_world_point(place, place.position);
 }
 
+/// Where a projection shows what is there in camera space.
+Vec2b place_of(const Perspective&, const Vec3b& c) { return {divided(c.x, c.z), divided(c.y, c.z)}; }
+Vec2b place_of(const Orthographic&, const Vec3b& c) { return {c.x, c.y}; }
+template <class AnyPanorama>
+Vec2b place_of(const AnyPanorama& panorama, const Vec3b& c) {
+    return panorama.place(unit(c));
+}
+
 /// 0 to 1 over the frame.
 Vec3b window(const Place& place) {
     const CameraFacts& camera = *place.lanes.camera;
     const Vec3b c = position_camera(place);
-    return {divided(c.x, c.z) * Batch(camera.window_scale.x) + Batch(camera.window_offset.x),
-            divided(c.y, c.z) * Batch(camera.window_scale.y) + Batch(camera.window_offset.y), Batch(0.0f)};
+    const Vec2b at = std::visit([&](const auto& kind) { return place_of(kind, c); }, camera.projection);
+    return {at.x * Batch(camera.window_scale.x) + Batch(camera.window_offset.x),
+            at.y * Batch(camera.window_scale.y) + Batch(camera.window_offset.y), Batch(0.0f)};
 }
 
 /// The direction from the camera in its space, the depth, and the distance.

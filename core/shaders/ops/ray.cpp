@@ -13,11 +13,22 @@ Batch ray_is(Settings<1> settings, const Place& place) {
     return select(equal(place.lanes.ray_kind & kinds, WordBatch(0u)), zero, one);
 }
 
-/// Rays of the camera start where it begins to see. [Cycles 4.5 kernel/camera/camera.h, camera_sample_perspective]
+/// How much of a camera's ray it does not see. [Cycles 4.5 kernel/camera/camera.h, camera_sample_perspective etc.]
+Batch unseen_m(const Perspective&, const Place& place) {
+    return divided(Batch(place.lanes.camera->clip_start_m) * place.lanes.ray_length_m,
+                   camera_from_world_point(place, place.position).z);
+}
+Batch unseen_m(const Orthographic&, const Place&) { return zero; }
+template <class AnyPanorama>
+Batch unseen_m(const AnyPanorama&, const Place& place) {
+    return Batch(place.lanes.camera->clip_start_m);
+}
+
 Batch ray_length(const Place& place) {
     if (place.lanes.is_world()) return std::numeric_limits<Batch>::max();
-    const Batch whole = place.lanes.ray_length_m, depth = camera_from_world_point(place, place.position).z;
-    const Batch unseen = divided(Batch(place.lanes.camera->clip_start_m) * whole, depth);
+    const Batch whole = place.lanes.ray_length_m;
+    const Batch unseen =
+        std::visit([&](const auto& kind) { return unseen_m(kind, place); }, place.lanes.camera->projection);
     return select(equal(place.lanes.ray_kind & WordBatch(ray_kinds), WordBatch(camera_ray)), whole - unseen, whole);
 }
 

@@ -1,5 +1,5 @@
 // Between world, object and camera space at a place. In the world's shader there is no object: its space is the
-// world's. Camera space looks down +z here, as shaders see it.
+// world's. Camera space is that of the camera's projection.
 #pragma once
 
 #include "core/shaders/ops/math.h"
@@ -47,18 +47,16 @@ inline TransformOf<Batch> broadcast(const Transform& t) {
 }
 
 inline Vec3b camera_from_world_vector(const Place& place, const Vec3b& v) {
-    const Vec3b c = broadcast(place.lanes.camera->camera_from_world).vector(v);
-    return {c.x, c.y, -c.z};
+    return broadcast(place.lanes.camera->camera_from_world).vector(v);
 }
 inline Vec3b camera_from_world_point(const Place& place, const Vec3b& p) {
-    const Vec3b c = broadcast(place.lanes.camera->camera_from_world).point(p);
-    return {c.x, c.y, -c.z};
+    return broadcast(place.lanes.camera->camera_from_world).point(p);
 }
 inline Vec3b world_from_camera_vector(const Place& place, const Vec3b& v) {
-    return broadcast(place.lanes.camera->world_from_camera).vector(Vec3b(v.x, v.y, -v.z));
+    return broadcast(place.lanes.camera->world_from_camera).vector(v);
 }
 inline Vec3b world_from_camera_point(const Place& place, const Vec3b& p) {
-    return broadcast(place.lanes.camera->world_from_camera).point(Vec3b(p.x, p.y, -p.z));
+    return broadcast(place.lanes.camera->world_from_camera).point(p);
 }
 
 }  // namespace pivot

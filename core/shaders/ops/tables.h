@@ -24,5 +24,6 @@ std::span<const OpKind> attribute_ops();
 std::span<const OpKind> ray_ops();
 std::span<const OpKind> normal_ops();
 std::span<const OpKind> image_ops();
+std::span<const OpKind> layer_ops();
 
 }  // namespace pivot

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -35,11 +36,36 @@ CASES: dict[str, dict[str, Any]] = {
     "scaled": {"scale": (2.0, 0.5, -3.0)},
     "border": {"border": (0.25, 0.75, 0.1, 0.6)},
     "cropped": {"border": (0.25, 0.75, 0.1, 0.6), "crop": True},
+    "orthographic": {"type": "ORTHO", "ortho_scale": 7.0, "shift_x": 0.2, "shift_y": -0.1},
+    "orthographic_tall": {"type": "ORTHO", "ortho_scale": 7.0, "size": (40, 90), "aspect": (2.0, 1.0)},
 }
+PANORAMAS: dict[str, dict[str, Any]] = {
+    "EQUIRECTANGULAR": {"longitude_min": -2, "longitude_max": 1, "latitude_min": -0.5, "latitude_max": 1.5},
+    "EQUIANGULAR_CUBEMAP_FACE": {},
+    "MIRRORBALL": {},
+    "FISHEYE_EQUIDISTANT": {"fisheye_fov": 3},
+    "FISHEYE_EQUISOLID": {"fisheye_fov": 3, "fisheye_lens": 12},
+    "FISHEYE_LENS_POLYNOMIAL": {"fisheye_fov": 2} | {f"fisheye_polynomial_k{k}": 0.25 * k - 1 for k in range(5)},
+}
+if bpy.app.version >= (4, 5):
+    PANORAMAS["CENTRAL_CYLINDRICAL"] = {
+        "central_cylindrical_range_u_min": -2,
+        "central_cylindrical_range_u_max": 1,
+        "central_cylindrical_range_v_min": -0.5,
+        "central_cylindrical_range_v_max": 1.5,
+        "central_cylindrical_radius": 2,
+    }
 
 
 def main(folder: Path) -> Any:
-    return {name: _measure(dict(case)) for name, case in CASES.items()} | {"stereo": _stereo()}
+    return {
+        "projected": {name: _measure(dict(case)) for name, case in CASES.items()},
+        "stereo": _stereo(),
+        "panoramas": {name: _panorama(name, settings) for name, settings in PANORAMAS.items()},
+        "lenses": _lenses(),
+        "stand_ins": _stand_ins(),
+        "spherical_stereo": _spherical_stereo(),
+    }
 
 
 def _measure(case: dict[str, Any]) -> Any:
@@ -66,12 +92,76 @@ def _measure(case: dict[str, Any]) -> Any:
     return {
         "camera_to_world": np.array(exported.camera_to_world).tolist(),
         "view_plane": exported.view_plane,
+        "projection": exported.projection,
         "frame": [exported.width, exported.height],
         "window": exported.window,
         "clip": [exported.clip_start_m, exported.clip_end_m],
         "points": [list(point) for point in points],
         "blender": [[view.x, view.y] for view in views],
     }
+
+
+def _panorama(kind: str, settings: dict[str, Any]) -> Any:
+    parts.clear()
+    parts.size(40, 90)
+    data = parts.camera().data
+    data.type, data.shift_x, data.shift_y = "PANO", 0.25, -0.5
+    owner = sys.modules["pivot.export.optics"].panorama_settings(data)
+    for key, value in {"panorama_type": kind, **settings}.items():
+        setattr(owner, key, value)
+    exported = record().camera
+    return {"projection": exported.projection, "view_plane": exported.view_plane}
+
+
+def _lenses() -> Any:
+    """The arguments of each, by what is set beside the default's."""
+    parts.clear()
+    camera = parts.camera((0, 0, 5))
+    dof = camera.data.dof
+    dof.use_dof, dof.focus_distance, dof.aperture_fstop = True, 4.0, 2.0
+    dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = 6, 0.5, 1.5
+    lenses = {"plain": record().camera.lens}
+    camera.data.type = "ORTHO"
+    lenses["orthographic"] = record().camera.lens
+    camera.data.type, dof.aperture_fstop, dof.focus_distance = "PERSP", 0.0, 0.0
+    lenses["nothing"] = record().camera.lens
+    dof.focus_object = parts.link("focus", None, (3, 4, 2))
+    lenses["object"] = record().camera.lens
+    armature = parts.link("armature", bpy.data.armatures.new("armature"), (0, 0, 1))
+    bpy.context.view_layer.objects.active = armature
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = armature.data.edit_bones.new("bone")
+    bone.head, bone.tail = (0, 0, 2), (0, 0, 3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    dof.focus_object, dof.focus_subtarget = armature, "bone"
+    lenses["bone"] = record().camera.lens
+    dof.use_dof = False
+    lenses["off"] = record().camera.lens
+    return lenses
+
+
+def _stand_ins() -> Any:
+    """What other objects see as cameras."""
+    parts.clear()
+    made = {
+        "empty": parts.link("empty"),
+        "spot": parts.light("spot", "SPOT", spot_size=1.0),
+        "point": parts.light("point", "POINT"),
+    }
+    seen = {}
+    for name, thing in made.items():
+        bpy.context.scene.camera = thing
+        exported = record().camera
+        seen[name] = {"view_plane": exported.view_plane, "clip": [exported.clip_start_m, exported.clip_end_m]}
+    return seen
+
+
+def _spherical_stereo() -> list[str]:
+    parts.clear()
+    data = parts.camera().data
+    data.type, data.stereo.use_spherical_stereo = "PANO", True
+    bpy.context.scene.render.use_multiview = True
+    return record().reports
 
 
 def _stereo() -> Any:

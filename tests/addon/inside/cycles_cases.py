@@ -179,15 +179,16 @@ def _materials(folder: Path) -> list[str]:
     return list(MATERIALS)
 
 
-def _ball(name: str, location: tuple[float, float, float], material: Any) -> None:
+def _ball(name: str, location: tuple[float, float, float], material: Any) -> Any:
     bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24, location=location)
     ball = bpy.context.object
     ball.name = name
     ball.data.materials.append(material)
     ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+    return ball
 
 
-def _cycles(path: Path, bounces: int, samples: int = CYCLES_SAMPLES) -> None:
+def _cycles(path: Path, bounces: int, samples: int = CYCLES_SAMPLES, file_format: str = "OPEN_EXR") -> None:
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     settings = scene.cycles
@@ -199,21 +200,21 @@ def _cycles(path: Path, bounces: int, samples: int = CYCLES_SAMPLES) -> None:
     settings.blur_glossy = 0
     settings.max_bounces = settings.diffuse_bounces = settings.glossy_bounces = bounces
     settings.transmission_bounces = bounces
-    _save(path)
+    _save(path, file_format)
 
 
-def _pivot(path: Path, bounces: int, light_sampling: str) -> None:
+def _pivot(path: Path, bounces: int, light_sampling: str, samples: int = 0, file_format: str = "OPEN_EXR") -> None:
     scene = bpy.context.scene
     scene.render.engine = "PIVOT"
-    scene.pivot.samples = PIVOT_SAMPLES[light_sampling]
+    scene.pivot.samples = samples or PIVOT_SAMPLES[light_sampling]
     scene.pivot.max_bounces = bounces
     scene.pivot.light_sampling = light_sampling
-    _save(path)
+    _save(path, file_format)
 
 
-def _save(path: Path) -> None:
+def _save(path: Path, file_format: str = "OPEN_EXR") -> None:
     render = bpy.context.scene.render
-    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.file_format = file_format
     render.image_settings.color_depth = "32"
     render.filepath = str(path)
     bpy.ops.render.render(write_still=True)

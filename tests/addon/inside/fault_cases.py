@@ -19,8 +19,8 @@ def main(folder: Path) -> Any:
         "faults": faults,
         "missing_core": _missing_core(folder),
         "memory": _memory(folder),
-        "strict": _strict(folder, use_dof=True),
-        "strict_without_warnings": _strict(folder, use_dof=False),
+        "strict": _strict(folder, has_warning=True),
+        "strict_without_warnings": _strict(folder, has_warning=False),
     }
 
 
@@ -57,16 +57,18 @@ def _light_energy() -> None:
     bpy.data.lights["lamp"].energy = NAN
 
 
-def _orthographic() -> None:
+def _camera_shift() -> None:
+    bpy.context.scene.camera.data.shift_y = NAN
+
+
+def _camera_scale() -> None:
     bpy.context.scene.camera.data.type = "ORTHO"
+    bpy.context.scene.camera.data.ortho_scale = NAN
 
 
-def _panoramic() -> None:
-    bpy.context.scene.camera.data.type = "PANO"
-
-
-def _not_a_camera() -> None:
-    bpy.context.scene.camera = bpy.data.objects["ground"]
+def _camera_stop() -> None:
+    dof = bpy.context.scene.camera.data.dof
+    dof.use_dof, dof.aperture_fstop = True, NAN
 
 
 def _samples() -> None:
@@ -90,9 +92,9 @@ FAULTS = {
         _mesh_vertex,
         _material_value,
         _light_energy,
-        _orthographic,
-        _panoramic,
-        _not_a_camera,
+        _camera_shift,
+        _camera_scale,
+        _camera_stop,
         _samples,
         _too_large,
     )
@@ -122,11 +124,11 @@ def _missing_core(folder: Path) -> Any:
         return render(folder / "missing_core.png")
 
 
-def _strict(folder: Path, use_dof: bool) -> Any:
+def _strict(folder: Path, has_warning: bool) -> Any:
     scene()
-    bpy.context.scene.camera.data.dof.use_dof = use_dof
+    bpy.context.scene.render.use_motion_blur = has_warning
     with patch.object(sys.modules["pivot.engine"].PivotRenderEngine, "strict", True):
-        return render(folder / f"strict_{use_dof}.png")
+        return render(folder / f"strict_{has_warning}.png")
 
 
 def _memory(folder: Path) -> Any:

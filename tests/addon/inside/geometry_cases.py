@@ -187,7 +187,7 @@ def summary(recording: Recording) -> Any:
                 "mesh": group.mesh,
                 "triangles": len(recording.meshes[group.mesh].triangle_corners),
                 "materials": group.materials,
-                "camera_visible": group.camera_visible,
+                "hidden_from": group.hidden_from,
                 "translations": np.array(group.object_to_world)[:, :3, 3].tolist(),
             }
             for group in recording.instances

@@ -14,8 +14,10 @@ HAS_EXPOSURE = bpy.app.version >= (4, 4)  # and normalize, temperature
 
 
 def main(folder: Path) -> Any:
+    lights, rules = _lights()
     return {
-        "lights": _lights(),
+        "lights": lights,
+        "rules": rules,
         "reports": _reports(),
         "worlds": _worlds(),
         "negative": _negative(),
@@ -59,55 +61,49 @@ def _lights() -> Any:
         light("raw_tiny", "POINT", energy=math.pi, shadow_soft_size=0.0, normalize=False)
         light("raw_area", "AREA", energy=math.pi, shape="DISK", size=3, normalize=False)
         light("raw_sun", "SUN", energy=2, angle=0.6, normalize=False)
+    beam = light("beam", "AREA", spread=1.0)
+    beam.visible_diffuse = beam.visible_volume_scatter = beam.visible_shadow = False  # the last is for surfaces
+    unshadowed = light("unshadowed", "POINT").data
+    if hasattr(unshadowed.cycles, "cast_shadow"):
+        unshadowed.cycles.cast_shadow = False
+    else:
+        unshadowed.use_shadow = False
+    unshadowed.cycles.max_bounces = 2
     recording = record()
-    return {name: recording.light(name) for name in recording.lights}
+    return {name: recording.light(name) for name in recording.lights}, recording.rules
 
 
 def _reports() -> Any:
     """What is said of lights, objects and a camera that lose something, in two layers and frames of one job."""
     parts.clear()
     parts.camera()
-    parts.light("beam", "AREA", spread=1.0)
     parts.light("oval", "SPOT").scale = (1, 2, 1)
     parts.light("even", "SPOT").scale = (2, 2, 2)
     fill = parts.light("fill", "POINT")
     if bpy.app.version >= (4, 0):
-        fill.data.use_shadow = False
-    else:
-        fill.data.cycles.cast_shadow = False
-    if bpy.app.version >= (4, 0):
         fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
-    bpy.context.scene.camera.data.dof.use_dof = True
     bpy.context.scene.render.use_motion_blur = True
     catcher = parts.quad("catcher")
-    catcher.is_shadow_catcher, catcher.visible_shadow = True, False
+    catcher.is_shadow_catcher = True
     hair = parts.quad("hair")
     hair.modifiers.new("hair", "PARTICLE_SYSTEM")
     hair.particle_systems[0].settings.type = "HAIR"
-    _masks()
     world = parts.world((1, 1, 1))
-    world.cycles_visibility.camera = False
+    world.cycles_visibility.diffuse = False
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
     place = glow.node_tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
     glow.node_tree.links.new(place, emission.inputs["Strength"])
     parts.quad("panel", material=glow)
     parts.quad("second panel", material=bpy.data.materials["glow"])
+    for name, roughness in (("window", 0.5), ("clear window", 0.0)):
+        window, node = parts.shaded(name, "ShaderNodeBsdfGlass", Roughness=roughness)
+        node.distribution = "GGX"
+        parts.quad(f"pane of {name}", material=window)
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     bpy.context.scene.view_layers.new("second")
     bpy.context.scene.frame_end = 2
     bpy.context.scene.render.filepath = str(Path(bpy.app.tempdir) / "reports")
     return record(animation=True).reports
-
-
-def _masks() -> None:
-    """A collection that is a holdout, one of its objects in an Indirect Only one below, and one that is empty."""
-    masked, within, empty = (bpy.data.collections.new(name) for name in ("masked", "within", "empty"))
-    bpy.context.scene.collection.children.link(masked)
-    bpy.context.scene.collection.children.link(empty)
-    masked.children.link(within)
-    within.objects.link(bpy.data.objects.new("in within", bpy.data.meshes.new("nothing")))
-    layers = bpy.context.view_layer.layer_collection.children
-    layers["masked"].holdout = layers["masked"].children["within"].indirect_only = layers["empty"].holdout = True
 
 
 def _negative() -> Any:

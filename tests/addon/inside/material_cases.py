@@ -179,10 +179,34 @@ def _nearest() -> None:
     shader("translucent", "ShaderNodeBsdfTranslucent", Color=GREEN)
     shader("see_through", "ShaderNodeBsdfTransparent")
     shader("oren_nayar", "ShaderNodeBsdfDiffuse", Color=RED, Roughness=0.5)
+    principled = "ShaderNodeBsdfPrincipled"
+    if NEW:
+        shader("microfiber", "ShaderNodeBsdfSheen", Color=GREEN, Roughness=0.3).distribution = "MICROFIBER"
+        shader("velvet", "ShaderNodeBsdfSheen", Color=GREEN, Roughness=0.3).distribution = "ASHIKHMIN"
+        shader("fuzzy", principled, Base_Color=RED, Sheen_Weight=0.5, Sheen_Roughness=0.3, Sheen_Tint=GREEN)
+    else:
+        shader("velvet", "ShaderNodeBsdfVelvet", Color=GREEN, Sigma=0.3)
+        shader("fuzzy", principled, Base_Color=RED, Sheen=0.5, Sheen_Tint=1.0, Roughness=0.4)
+    if bpy.app.version >= (4, 3):
+        shader("rough_plastic", principled, Base_Color=RED, Diffuse_Roughness=0.7)
     shader("beckmann", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.5).distribution = "BECKMANN"
-    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Sheen Weight" if NEW else "Sheen": 1.0}
+    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Subsurface Weight" if NEW else "Subsurface": 1.0}
     shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **left_out)
     feed(shader("fog", "ShaderNodeVolumePrincipled"), "Color", "ShaderNodeTexNoise")
+    kind = "Coat" if NEW else "Clearcoat"
+    lacquer = {"Coat Weight" if NEW else "Clearcoat": 0.5, f"{kind} Roughness": 0.5}
+    shader("lacquered", "ShaderNodeBsdfPrincipled", Base_Color=RED, **lacquer)
+    bumpy = shader("bumpy_beneath", "ShaderNodeBsdfPrincipled", Base_Color=RED, **lacquer)
+    feed(bumpy, "Normal", "ShaderNodeBump")
+    brushed = {"Roughness": 0.5, "Base_Color": RED, "Anisotropic": 0.8, "Anisotropic_Rotation": 0.25, "Metallic": 1}
+    shader("brushed", "ShaderNodeBsdfPrincipled", **brushed)
+    glossy = {"Color": RED, "Roughness": 0.5, "Rotation": 0.25}
+    for name, anisotropy in (("across", 0.75), ("along", -0.75)):
+        shader(name, "ShaderNodeBsdfAnisotropic", Anisotropy=anisotropy, **glossy).distribution = "GGX"
+    if bpy.app.version >= (4, 3):
+        silver = shader("silver", "ShaderNodeBsdfMetallic", Roughness=0.5, Anisotropy=0.8)
+        silver.fresnel_type = "PHYSICAL_CONDUCTOR"
+        silver.inputs["IOR"].default_value = (0.05, 0.06, 0.05)
 
     smoke = shader("smoke", "ShaderNodeBsdfDiffuse", Color=RED)
     for socket, kind in (("Volume", "ShaderNodeVolumeScatter"), ("Displacement", "ShaderNodeDisplacement")):

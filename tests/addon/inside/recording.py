@@ -5,8 +5,9 @@ Calls have the core's own parameters, so a misnamed one fails as it would there.
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from types import ModuleType, SimpleNamespace
@@ -33,6 +34,7 @@ class Material:
     lobes: Any = ()
     transparency: Any = (0, 0, 0)
     opacity: float | None = None
+    conductor_dip: Any = (0, 0, 0)
 
 
 @dataclass
@@ -91,6 +93,7 @@ class AreaLight:
     half_v: Any
     radiance: Any
     ellipse: bool = False
+    spread_rad: float = math.pi
 
 
 @dataclass
@@ -128,6 +131,7 @@ class Recording:
     without_surface: set[str] = field(default_factory=set)  # materials
     world_medium: Medium | None = None
     lights: dict[str, Any] = field(default_factory=dict)
+    rules: dict[str, Any] = field(default_factory=dict)  # of each light
     world: Any = None
     cameras: list[SimpleNamespace] = field(default_factory=list)
     settings: RenderSettings | None = None
@@ -174,7 +178,9 @@ class Scene:
         mesh: int,
         object_to_world: Any,
         materials: Any,
-        camera_visible: bool = True,
+        hidden_from: Sequence[str] = (),
+        holdout: bool = False,
+        matte: Any = (0, 0),
         color: Any = (1, 1, 1, 1),
         pass_index: float = 0,
         random: Any = None,
@@ -190,7 +196,8 @@ class Scene:
                 mesh=mesh,
                 object_to_world=np.array(object_to_world),
                 materials=materials,
-                camera_visible=camera_visible,
+                hidden_from=list(hidden_from),
+                holdout=holdout,
             )
         )
         return len(self.recording.instances) - 1
@@ -199,7 +206,13 @@ class Scene:
         return self.attributes.setdefault(name, len(self.attributes))
 
     def add_material(
-        self, name: str, material: Material | Shader, medium: Medium | None = None, has_surface: bool = True
+        self,
+        name: str,
+        material: Material | Shader,
+        medium: Medium | None = None,
+        has_surface: bool = True,
+        pass_index: float = 0,
+        matte: float = 0,
     ) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
@@ -208,8 +221,9 @@ class Scene:
             self.recording.without_surface.add(name)
         return len(self.recording.materials) - 1
 
-    def add_light(self, name: str, light: Any) -> int:
+    def add_light(self, name: str, light: Any, hidden_from: Sequence[str] = (), max_bounces: int = 1024) -> int:
         self.recording.lights[name] = light
+        self.recording.rules[name] = (list(hidden_from), max_bounces)
         return len(self.recording.lights) - 1
 
     def set_world(self, radiance: Any) -> None:
@@ -230,6 +244,8 @@ class Scene:
         window: Any,
         clip_start_m: float,
         clip_end_m: float,
+        projection: Any,
+        lens: Any,
     ) -> None:
         camera = dict(locals())
         del camera["self"]
@@ -242,7 +258,9 @@ class Session:
     virtual_lights = (0, 0, 0.0)
 
     @staticmethod
-    def bytes_per_pixel(adaptive: bool, denoising_passes: bool) -> int:
+    def bytes_per_pixel(
+        adaptive: bool, denoising_passes: bool, surface_passes: bool = False, mattes: bool = False
+    ) -> int:
         return 88
 
     def __init__(self, scene: Scene, settings: RenderSettings) -> None:
@@ -265,6 +283,20 @@ class Session:
         return np.zeros((self.height, self.width, channels), np.float32)
 
 
+# The core's, recorded as their names and arguments.
+OPTICS = (
+    "Perspective",
+    "Orthographic",
+    "Equirectangular",
+    "CentralCylindrical",
+    "FisheyeEquidistant",
+    "FisheyeEquisolid",
+    "FisheyePolynomial",
+    "CubeMapFace",
+    "MirrorBall",
+    "Lens",
+)
+
 _recordings: list[Recording] = []
 
 
@@ -274,6 +306,8 @@ def _in_place_of_the_core() -> Iterator[None]:
     core: Any = ModuleType("pivot_core")
     for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf"):
         setattr(core, name, getattr(real, name))
+    for name in OPTICS:
+        setattr(core, name, lambda *numbers, name=name: (name, *numbers))
     for part in (
         Material,
         Shader,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import struct
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -20,27 +19,17 @@ import bpy
 # isort: split
 import addon_utils
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from window import FOLDER, pixels, region, view
+
 DEADLINE_S = 60.0
 POLL_S = 0.5
-FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
-
-
-def view() -> tuple[Any, Any]:
-    window = bpy.context.window_manager.windows[0]
-    return window, next(area for area in window.screen.areas if area.type == "VIEW_3D")
 
 
 def middle() -> list[float]:
-    """RGB of the middle of the 3D view, as the screen shows it: Blender 4.3's own screenshots are black under Xvfb."""
-    window, area = view()
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    data = (FOLDER / "Xvfb_screen0").read_bytes()
-    header = struct.unpack(">25I", data[:100])  # XWD's
-    header_size, height, row_size, color_count = (header[i] for i in (0, 5, 12, 19))
-    x = window.x + region.x + region.width // 2
-    y = window.y + region.y + region.height // 2  # from below
-    pixel = header_size + 12 * color_count + (height - 1 - y) * row_size + 4 * x
-    return [value / 255 for value in data[pixel : pixel + 3][::-1]]
+    """RGB of the middle of the 3D view, as the screen shows it."""
+    own = region()
+    return pixels([(own.width // 2, own.height // 2)])[0]
 
 
 def lamp(name: str, colour: tuple[float, float, float, float], z: float) -> Any:

@@ -49,7 +49,7 @@ class Watch:
     def install(self) -> None:
         viewport: Any = sys.modules["pivot.viewport"]
         draw, start, export = viewport.Viewport.draw, viewport.Viewport._start, viewport.Viewport._export
-        draw_texture, in_short = viewport._draw_texture, viewport._in_short
+        draw_picture, in_short = viewport.draw_picture, viewport._in_short
 
         def watched_draw(*arguments: Any) -> None:
             self.draws.append(self.k)
@@ -64,14 +64,15 @@ class Watch:
             self.exports += 1
             export(*arguments)
 
-        def watched_texture(engine: Any, scene: Any, texture: Any, size: Any) -> None:
+        def watched_picture(engine: Any, scene: Any, shown: Any, view: Any) -> None:
+            texture = shown.texture
             if texture is not self._last:
                 row = texture.read()[texture.height // 2]
-                shown = round(row[texture.width // 2][0]) - 1
-                draws_ago = self.draws[::-1].index(shown) if shown in self.draws else -1
+                k = round(row[texture.width // 2][0]) - 1
+                draws_ago = self.draws[::-1].index(k) if k in self.draws else -1
                 self.pictures.append(draws_ago)
             self._last = texture
-            draw_texture(engine, scene, texture, size)
+            draw_picture(engine, scene, shown, view)
 
         def watched_in_short(warnings: list[str]) -> list[str]:
             self.text = in_short(warnings)
@@ -79,7 +80,7 @@ class Watch:
 
         viewport.Viewport.draw, viewport.Viewport._start = watched_draw, watched_start
         viewport.Viewport._export = watched_export
-        viewport._draw_texture, viewport._in_short = watched_texture, watched_in_short
+        viewport.draw_picture, viewport._in_short = watched_picture, watched_in_short
 
     def seen(self) -> dict[str, Any]:
         return {"sessions": self.sessions, "exports": self.exports, "draws": len(self.draws), "pictures": self.pictures}
@@ -118,9 +119,7 @@ def steps() -> Iterator[bool]:
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     lamps = [lamp(k) for k in range(SECTORS)]
     light = parts.light("fill", "POINT", (0, 0, 100))
-    for settings, name in ((light.data, "use_shadow"), (light.data.cycles, "cast_shadow")):  # by the Blender's version
-        if hasattr(settings, name):
-            setattr(settings, name, False)
+    parts.quad("catcher", (0, 0, 200)).is_shadow_catcher = True
     scene.render.engine = "PIVOT"
     scene.pivot.samples = 256
     region = area.spaces.active.region_3d

@@ -1,0 +1,105 @@
+"""Highlights about axes of their own: coats, anisotropic microfacets and conductors of an index of refraction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from .program import Program, Value
+
+
+@dataclass(frozen=True)
+class Highlight:
+    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, which says what they are.
+
+    curve: what its microfacets reflect, of the lobe that `kind` names. normal: world space; None: the surface's.
+    """
+
+    kind: str  # "anisotropic" or "conductor"
+    curve: tuple[tuple[str, Value], ...]
+    color: Value
+    alpha_x: Value
+    alpha_y: Value
+    rotation: Value
+    multiscatter: bool
+    normal: Value | None = None
+    is_coat: bool = False
+
+    @property
+    def is_anisotropic(self) -> bool:
+        return self.alpha_x != self.alpha_y
+
+    def scaled(self, weight: Value) -> Highlight:
+        return replace(self, color=self.color * weight)
+
+    def base(self) -> dict[str, Any]:
+        """What a base has of it: as rough all around, about the surface's normal."""
+        alpha = self.alpha_x if not self.is_anisotropic else (self.alpha_x * self.alpha_y).root()
+        return self._curve_of_base() | {"alpha": alpha, "multiscatter": self.multiscatter}
+
+    def _curve_of_base(self) -> dict[str, Value]:
+        values, part = dict(self.curve), share(self.color)
+        if self.kind == "conductor":
+            less, more, k2 = values["n"] - 1.0, values["n"] + 1.0, values["k"] * values["k"]
+            f0 = (less * less + k2) / (more * more + k2)
+            return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}
+        scaled = dict.fromkeys(("conductor_f0", "conductor_f90", "conductor_dip"), self.color)
+        scaled |= {"conductor_weight": part, "dielectric_weight": part, "dielectric_tint": hue(self.color)}
+        return {name: value * scaled[name] if name in scaled else value for name, value in values.items()}
+
+    def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
+        """As Surface.core_shader gives lobes to the core: a further base where that is the same."""
+        multiscatter = {"multiscatter": float(self.multiscatter)}
+        is_grey = len(set(self.color.parts)) == 1
+        if self.kind == "anisotropic" and not self.is_anisotropic and self.normal is None and is_grey:
+            return "base", self._curve_of_base() | {"alpha": self.alpha_x}, multiscatter
+        own = {"color": self.color, "alpha_x": self.alpha_x, "alpha_y": self.alpha_y, "rotation": self.rotation}
+        if self.normal is not None:
+            own["normal"] = self.normal.program.registers(self.normal)
+        return self.kind, dict(self.curve) | own, multiscatter
+
+
+def share(weight: Value) -> Value:
+    """The one number of a weight that may be a colour."""
+    return weight[0] if len(set(weight.parts)) == 1 else weight.mean()
+
+
+def hue(weight: Value) -> Value:
+    """What of a weight its share leaves out."""
+    return weight.program.colour((1, 1, 1)) if len(set(weight.parts)) == 1 else weight / share(weight)
+
+
+def coat(program: Program, alpha: Value, ior: Value, weight: Value, normal: Value | None) -> Highlight:
+    curve = {"conductor_weight": program.number(0.0), "dielectric_weight": weight, "dielectric_ior": ior}
+    white = program.colour((1, 1, 1))
+    return Highlight(
+        "anisotropic", tuple(curve.items()), white, alpha, alpha, program.number(0.0), True, normal, is_coat=True
+    )
+
+
+def sides(alpha: Value, anisotropic: Value) -> tuple[Value, Value]:
+    """GGX alpha along the tangent and across it, of Principled and Metallic BSDF. [Cycles 4.5 svm/closure.h]"""
+    aspect = (1.0 - anisotropic.clamped() * 0.9).root()
+    return (alpha / aspect).at_most(1.0), alpha * aspect
+
+
+def sides_of_glossy(alpha: Value, anisotropy: Value) -> tuple[Value, Value]:
+    """The same of Glossy BSDF, whose highlight is long across the tangent where anisotropy is above 0."""
+    program = alpha.program
+    bounded = anisotropy.at_least(-0.99).at_most(0.99)
+    rest = 1.0 - program.each("math_absolute", bounded)
+    short, long = alpha * rest, (alpha / rest).at_most(1.0)
+    is_along = program.each("math_less_than", bounded, 0.0)
+    return program.mixed(is_along, short, long), program.mixed(is_along, long, short)
+
+
+def f82(f0: Value, edge_tint: Value, weight: Value) -> dict[str, Value]:
+    """So much of a metal whose reflectance at 82 degrees is Schlick's times a tint. [Cycles 4.5 closure/bsdf_util.h]"""
+    at_82 = (6 / 7) ** 5
+    dip = (f0 + (1.0 - f0) * at_82) * (1.0 - edge_tint) * (7.0 / (at_82 * 6 / 7))
+    return {
+        "conductor_f0": f0 * weight,
+        "conductor_f90": weight.widened(),
+        "conductor_dip": dip * weight,
+        "conductor_weight": weight,
+    }

@@ -1,0 +1,70 @@
+"""The 3D view of a Blender with a window, and what the screen shows of it."""
+
+from __future__ import annotations
+
+import struct
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+POLL_S = 0.02
+
+
+def view() -> tuple[Any, Any]:
+    """The window and its 3D view."""
+    window = bpy.context.window_manager.windows[0]
+    return window, next(area for area in window.screen.areas if area.type == "VIEW_3D")
+
+
+def region() -> Any:
+    return next(region for region in view()[1].regions if region.type == "WINDOW")
+
+
+def in_view() -> Any:
+    """Have operators act as if called in the 3D view."""
+    window, area = view()
+    return bpy.context.temp_override(window=window, area=area, region=region())
+
+
+def pixels(places: list[tuple[float, float]]) -> list[list[float]]:
+    """RGB at places of the 3D view, in pixels, as the screen shows them: its own screenshots may be black."""
+    window, own = view()[0], region()
+    data = (FOLDER / "Xvfb_screen0").read_bytes()
+    header = struct.unpack(">25I", data[:100])  # XWD's
+    header_size, height, row_size, color_count = (header[i] for i in (0, 5, 12, 19))
+    first = header_size + 12 * color_count
+    found = []
+    for x, y in places:  # from below
+        row = height - 1 - (window.y + own.y + int(y))
+        pixel = first + row * row_size + 4 * (window.x + own.x + int(x))
+        found.append([value / 255 for value in data[pixel : pixel + 3][::-1]])
+    return found
+
+
+def follow(steps: Iterator[Callable[[], bool]], deadline_s: float) -> None:
+    """Take the steps: each yields what must come true before the next, which is asked now and then. Then quit."""
+    waiting: list[Callable[[], bool]] = [lambda: True]
+    started_s = time.monotonic()
+
+    def tick() -> float | None:
+        try:
+            if time.monotonic() > started_s + deadline_s:
+                raise TimeoutError("the steps took too long")
+            if waiting[0]():
+                waiting[0] = next(steps)
+            return POLL_S
+        except StopIteration:
+            pass
+        except BaseException:
+            traceback.print_exc()
+        bpy.ops.wm.quit_blender()
+        return None
+
+    bpy.context.preferences.view.show_splash = False
+    bpy.app.timers.register(tick, first_interval=0.5, persistent=True)

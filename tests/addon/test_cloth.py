@@ -1,0 +1,43 @@
+"""Pivot and Cycles, in one Blender, agree on rough diffuse reflection, sheen and velvet."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import flip_evaluator
+import numpy as np
+import pytest
+from blender_host import Host
+from exr import read_rgb
+
+TOLERANCE = 0.01  # of the mean
+FLIP = 0.05
+
+
+@pytest.fixture(scope="module")
+def pictures(host: Host, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
+    """The folder, and which there are."""
+    folder = tmp_path_factory.mktemp("cloth")
+    names = host.run("cloth_cases", folder)
+    assert len(names) >= 8
+    return folder, names
+
+
+def compare(folder: Path, name: str, integrator: str) -> dict[str, Any]:
+    ours = read_rgb(folder / f"{name}_{integrator}.exr")
+    cycles = read_rgb(folder / f"{name}{'_direct' if 'direct' in integrator else ''}_CYCLES.exr")
+    shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]
+    return {
+        "mean": ours.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1)),
+        "flip": flip_evaluator.evaluate(*shown, "LDR")[1],
+    }
+
+
+@pytest.mark.parametrize("integrator", ["MONTE_CARLO", "direct_ANALYTIC"])
+def test_pictures_are_cycles(pictures: tuple[Path, list[str]], integrator: str) -> None:
+    folder, names = pictures
+    found = {name: compare(folder, name, integrator) for name in names}
+    off = {name: each for name, each in found.items() if np.abs(each["mean"] - 1).max() > TOLERANCE}
+    assert not off
+    assert {name: each["flip"] for name, each in found.items() if each["flip"] > FLIP} == {}
