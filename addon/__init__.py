@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 
 import addon_utils
+import bpy
 
 from . import engine, panels, properties
 from .chart import operators as chart_operators
@@ -27,7 +28,8 @@ _MODULES = (properties, engine, chart_operators, panels, ndf_operators, ndf_pane
 def register() -> None:
     for module in _MODULES:
         module.register()
-    atexit.register(_disable)
+    if getattr(bpy.app, "module", False):
+        atexit.register(_disable)
 
 
 def unregister() -> None:
@@ -37,5 +39,8 @@ def unregister() -> None:
 
 
 def _disable() -> None:
-    """As a Python module, Blender 4.2 crashes and 4.5 hangs at exit while a class or handler is registered."""
+    """As a Python module, Blender 4.2 crashes and 4.5 hangs at exit while a class or handler is registered.
+
+    A Blender of its own has let go of its classes by then.
+    """
     addon_utils.disable(__name__)

@@ -325,8 +325,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    if hasattr(bpy.types.VIEW3D_HT_header, "draw"):  # when Blender ends, its own classes may have gone before
-        bpy.types.VIEW3D_HT_header.remove(_draw_pause)
+    bpy.types.VIEW3D_HT_header.remove(_draw_pause)
     for panel in _built_in_panels():
         panel.COMPAT_ENGINES.discard(_ENGINE)
     for panel in reversed(_CLASSES):
