@@ -6,10 +6,12 @@ namespace pivot {
 namespace {
 
 MaterialOf<Batch> pack_materials(const std::array<const Material*, batch_size>& materials) {
-    constexpr std::size_t without_lobes = lobes_place;
-    const auto has_lobes = [](const Material* material) { return material->lobes[0].kind > 0.0f; };
-    if (std::any_of(materials.begin(), materials.end(), has_lobes)) return pack<MaterialOf>(materials);
-    return pack<MaterialOf, without_lobes>(materials);
+    constexpr std::size_t without_lobes = lobes_place, with_one = lobes_place + all_numbers<LobeOf>;
+    const auto have_lobe = [&](std::size_t k) {
+        return std::ranges::any_of(materials, [&](const Material* material) { return material->lobes[k].kind > 0.0f; });
+    };
+    if (!have_lobe(0)) return pack<MaterialOf, without_lobes>(materials);
+    return have_lobe(1) ? pack<MaterialOf>(materials) : pack<MaterialOf, with_one>(materials);
 }
 
 }  // namespace

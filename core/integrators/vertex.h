@@ -72,9 +72,15 @@ class VertexBatch : public VertexOf<Batch> {
 
     /// One of them.
     const Vertex& lane(std::size_t i) const {
-        constexpr std::size_t without_lobes = all_numbers<VertexOf> - max_lobes * all_numbers<LobeOf>;
-        if (!lanes_)
-            lanes_ = any(surface.has_lobes()) ? unpack<VertexOf>(*this) : unpack<VertexOf, without_lobes>(*this);
+        constexpr std::size_t without_lobes = all_numbers<VertexOf> - max_lobes * all_numbers<LobeOf>,
+                              with_one = without_lobes + all_numbers<LobeOf>;
+        if (!lanes_) {
+            const auto& lobes = surface.lobes;
+            if (!any(lobes[0].kind > Batch(0.0f)))
+                lanes_ = unpack<VertexOf, without_lobes>(*this);
+            else
+                lanes_ = any(lobes[1].kind > Batch(0.0f)) ? unpack<VertexOf>(*this) : unpack<VertexOf, with_one>(*this);
+        }
         return (*lanes_)[i];
     }
 
