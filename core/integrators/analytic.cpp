@@ -48,15 +48,11 @@ std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings
     });
     std::vector<LookedAt> surfaces;
     surfaces.reserve(shown.size());
-    std::vector<const Arrival*> ordered;
-    for (const Shown& s : shown) ordered.push_back(&s.arrival);
-    for (std::size_t first = 0; first < ordered.size();) {
-        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
-        const std::size_t count = batch_count(scene, rest);
-        see(scene, bounce, rest.first(count), std::span<const Shown>(shown).subspan(first, count), memory, surfaces,
-            samples);
-        first += count;
-    }
+    const auto arrival_of = [](const Shown& s) -> const Arrival& { return s.arrival; };
+    for_each_arrival_batch<Shown>(scene, shown, arrival_of,
+                                  [&](std::span<const Arrival* const> batch, std::span<const Shown> of_batch) {
+                                      see(scene, bounce, batch, of_batch, memory, surfaces, samples);
+                                  });
     return surfaces;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/bsdf/surface.h"
 #include "core/scene/scene.h"
@@ -43,6 +44,20 @@ struct ArrivalBatch {
 
 /// How many of the first arrivals may share a batch: a program runs for one material.
 std::size_t batch_count(const Scene& scene, std::span<const Arrival* const> arrivals);
+
+/// Calls visit(arrivals, items) with as many items, at least one, as batch_count allows, until all had their turn.
+/// items: what materials have in common stands together. arrival_of(item): its Arrival.
+template <class Item, class ToArrival, class Visit>
+void for_each_arrival_batch(const Scene& scene, std::span<const Item> items, const ToArrival& arrival_of,
+                            const Visit& visit) {
+    std::vector<const Arrival*> arrivals;
+    for (const Item& item : items) arrivals.push_back(&arrival_of(item));
+    for (std::size_t first = 0, count = 0; first < items.size(); first += count) {
+        const auto rest = std::span<const Arrival* const>(arrivals).subspan(first);
+        count = batch_count(scene, rest);
+        visit(rest.first(count), items.subspan(first, count));
+    }
+}
 
 /// What surfaces let through where arrivals meet them: as many as batch_count allows, at least one.
 TransparencyOf<Batch> transparency_of(const Scene& scene, std::span<const Arrival* const> arrivals,

@@ -35,15 +35,12 @@ std::vector<Transparency> transparencies(const Scene& scene, std::span<const Arr
     std::vector<std::size_t> order(arrivals.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return arrivals[i].material; });
-    std::vector<const Arrival*> ordered;
-    for (const std::size_t i : order) ordered.push_back(&arrivals[i]);
-    for (std::size_t first = 0; first < ordered.size();) {
-        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
-        const std::size_t count = batch_count(scene, rest);
-        const auto lanes = unpack<TransparencyOf>(transparency_of(scene, rest.first(count), bounce, memory));
-        for (std::size_t i = 0; i < count; ++i) found[order[first + i]] = lanes[i];
-        first += count;
-    }
+    const auto arrival_of = [&](std::size_t i) -> const Arrival& { return arrivals[i]; };
+    for_each_arrival_batch<std::size_t>(
+        scene, order, arrival_of, [&](std::span<const Arrival* const> batch, std::span<const std::size_t> places) {
+            const auto lanes = unpack<TransparencyOf>(transparency_of(scene, batch, bounce, memory));
+            for (std::size_t i = 0; i < places.size(); ++i) found[places[i]] = lanes[i];
+        });
     return found;
 }
 

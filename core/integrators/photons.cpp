@@ -220,7 +220,8 @@ void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
         std::vector<std::optional<RayHit>> hits(rays.size());
         scene.intersect(rays, visible_to_diffuse, hits);
         if (scene.has_transparency()) go_on(scene, max_path_passages, photons, bounce, memory, hits);
-        std::vector<std::pair<Arrival, std::size_t>> arrivals;  // and the photon of each
+        using Arrived = std::pair<Arrival, std::size_t>;  // and its photon
+        std::vector<Arrived> arrivals;
         for (std::size_t i = 0; i < hits.size(); ++i)
             if (hits[i])
                 arrivals.push_back({{.direction = rays[i].direction,
@@ -230,25 +231,22 @@ void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
                                      .ray_kind = diffuse_ray},
                                     i});
         std::ranges::stable_sort(arrivals, {}, [&](const auto& a) { return a.first.material; });
-        std::vector<const Arrival*> ordered;
-        for (const auto& a : arrivals) ordered.push_back(&a.first);
+        const auto arrival_of = [](const Arrived& a) -> const Arrival& { return a.first; };
         std::vector<Photon> further;
-        for (std::size_t first = 0; first < ordered.size();) {
-            const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
-            const std::size_t count = batch_count(scene, rest);
-            const ArrivalBatch batch = make_arrivals(scene, rest.first(count), bounce + 1, memory);
-            const auto points = unpack<SurfacePointOf>(batch.point);
-            const auto surfaces = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
-            for (std::size_t i = 0; i < count; ++i) {
-                const Photon& photon = photons[arrivals[first + i].second];
-                const std::uint32_t owner = rest[i]->hit.instance;
-                const CellSpace cells(scene.world_from_object(owner));
-                deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits);
-                if (bounce + 1 == std::min(bounces, photon.max_bounces)) continue;
-                if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
-            }
-            first += count;
-        }
+        for_each_arrival_batch<Arrived>(
+            scene, arrivals, arrival_of, [&](std::span<const Arrival* const> met, std::span<const Arrived> of_batch) {
+                const ArrivalBatch batch = make_arrivals(scene, met, bounce + 1, memory);
+                const auto points = unpack<SurfacePointOf>(batch.point);
+                const auto surfaces = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
+                for (std::size_t i = 0; i < of_batch.size(); ++i) {
+                    const Photon& photon = photons[of_batch[i].second];
+                    const std::uint32_t owner = met[i]->hit.instance;
+                    const CellSpace cells(scene.world_from_object(owner));
+                    deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits);
+                    if (bounce + 1 == std::min(bounces, photon.max_bounces)) continue;
+                    if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
+                }
+            });
         photons = std::move(further);
     }
 }

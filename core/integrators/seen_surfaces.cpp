@@ -87,33 +87,30 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
     ProgramMemory memory;
     std::vector<Seen> seen = surfaces_on(scene, settings, camera_rays, memory, passes);
     std::ranges::stable_sort(seen, {}, [](const Seen& s) { return s.arrival.material; });
-    std::vector<const Arrival*> ordered;
-    for (const Seen& s : seen) ordered.push_back(&s.arrival);
-    for (std::size_t first = 0; first < ordered.size();) {
-        const auto rest = std::span<const Arrival* const>(ordered).subspan(first);
-        const std::size_t count = batch_count(scene, rest);
-        Lanes passing{};
-        if (scene.has_transparency())
-            passing = store(mean_component(transparency_of(scene, rest.first(count), 0, memory).color));
-        const ArrivalBatch batch = make_arrivals(scene, rest.first(count), 0, memory);
-        const auto colors = unpack<ColorPartsOf>(color_parts(make_surface(batch.material, batch.point.wo_local)));
-        for (std::size_t i = 0; i < count; ++i) {
-            const Seen& s = seen[first + i];
-            const float weight = mean_component(s.worth) * (1.0f - std::min(passing[i], 1.0f));
-            if (settings.mattes && weight > 0.0f) {
-                const auto [object, material, asset] = scene.matte_ids_of(s.arrival.hit);
-                mattes.push_back({s.ray, {{object, material, asset}, weight}});
+    const auto arrival_of = [](const Seen& s) -> const Arrival& { return s.arrival; };
+    for_each_arrival_batch<Seen>(
+        scene, seen, arrival_of, [&](std::span<const Arrival* const> arrivals, std::span<const Seen> of_batch) {
+            Lanes passing{};
+            if (scene.has_transparency())
+                passing = store(mean_component(transparency_of(scene, arrivals, 0, memory).color));
+            const ArrivalBatch batch = make_arrivals(scene, arrivals, 0, memory);
+            const auto colors = unpack<ColorPartsOf>(color_parts(make_surface(batch.material, batch.point.wo_local)));
+            for (std::size_t i = 0; i < of_batch.size(); ++i) {
+                const Seen& s = of_batch[i];
+                const float weight = mean_component(s.worth) * (1.0f - std::min(passing[i], 1.0f));
+                if (settings.mattes && weight > 0.0f) {
+                    const auto [object, material, asset] = scene.matte_ids_of(s.arrival.hit);
+                    mattes.push_back({s.ray, {{object, material, asset}, weight}});
+                }
+                if (passes.empty()) continue;
+                SurfacePasses& pass = passes[s.ray];
+                pass.diffuse_color += s.worth * colors[i].diffuse;
+                pass.glossy_color += s.worth * colors[i].glossy;
+                pass.transmission_color += s.worth * colors[i].transmission;
+                pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
+                if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
             }
-            if (passes.empty()) continue;
-            SurfacePasses& pass = passes[s.ray];
-            pass.diffuse_color += s.worth * colors[i].diffuse;
-            pass.glossy_color += s.worth * colors[i].glossy;
-            pass.transmission_color += s.worth * colors[i].transmission;
-            pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
-            if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
-        }
-        first += count;
-    }
+        });
     std::ranges::stable_sort(mattes, {}, &SeenMatte::ray);
 }
 

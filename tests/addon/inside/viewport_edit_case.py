@@ -17,7 +17,6 @@ from typing import Any
 import bpy
 
 # isort: split
-import addon_utils
 import bmesh
 import numpy as np
 
@@ -244,10 +243,7 @@ class Edits:
 
 
 def steps() -> Iterator[Callable[[], bool]]:
-    bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
-    addon_utils.enable("pivot")
-    for made in list(bpy.data.objects):
-        bpy.data.objects.remove(made)
+    window.clear()
     yield lambda: True
     watch = Watch()
     main, area = window.view()

@@ -13,10 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import bpy
-
 # isort: split
-import addon_utils
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -29,10 +26,7 @@ PASSES = ("COMBINED", "DEPTH", "NORMAL", "DIFFUSE_COLOR", "EMISSION", "INDIRECT"
 
 
 def steps() -> Iterator[Callable[[], bool]]:
-    bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
-    addon_utils.enable("pivot")
-    for made in list(bpy.data.objects):
-        bpy.data.objects.remove(made)
+    window.clear()
     yield lambda: True
     import pivot.denoise as denoise
 

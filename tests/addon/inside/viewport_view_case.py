@@ -15,7 +15,6 @@ from typing import Any
 import bpy
 
 # isort: split
-import addon_utils
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -61,10 +60,7 @@ ALL = ["red", "green", "red", "blue"]
 
 
 def steps() -> Iterator[Callable[[], bool]]:
-    bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
-    addon_utils.enable("pivot")
-    for made in list(bpy.data.objects):
-        bpy.data.objects.remove(made)
+    window.clear()
     yield lambda: True
     viewport: Any = sys.modules["pivot.viewport"]
     sizes: list[tuple[int, int]] = [(0, 0)]

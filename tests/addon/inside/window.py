@@ -10,10 +10,19 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import addon_utils
 import bpy
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 POLL_S = 0.02
+
+
+def clear() -> None:
+    """Blender as it starts, with the addon and without objects."""
+    bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
+    addon_utils.enable("pivot")
+    for made in list(bpy.data.objects):
+        bpy.data.objects.remove(made)
 
 
 def view() -> tuple[Any, Any]:
