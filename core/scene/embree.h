@@ -1,4 +1,4 @@
-// Embree's handles, owned, and how its geometry and BVHs are made. Only ray_tracer.cpp and mesh_bvhs.cpp include it.
+// Embree's handles, owned, and how its geometry and BVHs are made. Seen by the files of BVHs and by ray_tracer.cpp alone.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)

@@ -1,4 +1,4 @@
-// Closest hits and occlusion over instanced meshes. It alone, and the BVHs of mesh_bvhs.h, know Embree.
+// Closest hits and occlusion over instanced meshes.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "core/geometry/mesh.h"
 #include "core/math/transform.h"
 #include "core/scene/mesh_bvhs.h"
+#include "core/scene/visibility.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
@@ -37,26 +38,13 @@ using Ray = RayOf<float>;
 using RayHit = RayHitOf<float>;
 inline constexpr std::uint32_t no_instance = ~0u;
 
-/// Which rays meet an instance: those of a camera, and of paths by how they were last reflected or scattered. Shadow
-/// rays of what casts shadows end at what hides light, and pass what filters it.
-enum Visibility : std::uint32_t {
-    visible_to_camera = 1,
-    visible_to_diffuse = 2,
-    visible_to_glossy = 4,
-    visible_to_transmission = 8,
-    visible_to_scatter = 16,
-    visible_to_paths = 30,  ///< all kinds of them
-    casts_shadows = 32,
-    visible_to_all = 63,
-    hides_light = 64,
-    filters_light = 128,
-};
-
 /// Where a ray passes through a surface.
 struct Crossing {
     float distance_m;
     std::uint32_t instance, triangle;
 };
+
+class InstanceBvhs;
 
 class RayTracer {
    public:
@@ -110,8 +98,7 @@ class RayTracer {
                    const IsOpaque& is_opaque, std::vector<Filtered>& found) const;
 
    private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<InstanceBvhs> bvhs_;
 };
 
 }  // namespace pivot
