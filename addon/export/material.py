@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..report import naming
+from .attributes import is_of_mesh
 from .baked import Interior, is_placed, reads_place
 from .context import Context
 from .dielectric import Dielectric
@@ -35,6 +36,10 @@ class Slots:
     attributes: frozenset[str]  # that they read of their meshes
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
+
+    def of_mesh(self) -> frozenset[str]:
+        """The attributes that are of meshes and curves."""
+        return frozenset(filter(is_of_mesh, self.attributes))
 
     def ids_without_surface(self) -> tuple[int, ...]:
         """Of faces that all have none: what the other slots have does not count."""

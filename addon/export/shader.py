@@ -14,6 +14,7 @@ import bpy
 from . import cloth
 from .census import INPUTS
 from .dielectric import Dielectric
+from .hair import principled_hair
 from .highlight import Highlight, f82, sides, sides_of_glossy
 from .layers import beneath_dielectric, brushed, coated, rotation
 from .lobe import Lobe
@@ -359,6 +360,7 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_SHEEN": cloth.sheen,
     "BSDF_VELVET": cloth.velvet,
+    "BSDF_HAIR_PRINCIPLED": principled_hair,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,

@@ -11,6 +11,7 @@
 #include "core/bsdf/lobes/dielectric.h"
 #include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/hair.h"
 #include "core/bsdf/lobes/oren_nayar.h"
 #include "core/bsdf/lobes/sheen.h"
 #include "core/bsdf/lobes/tabulated.h"
@@ -22,7 +23,7 @@ namespace pivot {
 
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
-                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>>;
+                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Attribute {
     std::vector<float> values;
 };
 
+struct Curves;
+
 struct Mesh {
     std::string name;
     /// One more than the mesh has: Embree reads 16 bytes at each vertex.
@@ -31,6 +34,7 @@ struct Mesh {
     std::vector<Vec3f> vertex_normals;       ///< empty: none; shading is flat where no corner has one either
     std::vector<Attribute> attributes;
     std::vector<std::uint16_t> triangle_slots;  ///< material slot; empty: all 0
+    std::shared_ptr<const Curves> curves;       ///< then there are no positions, see curves.h; none: a mesh
 
     std::size_t vertex_count() const { return positions.size() - 1; }
     const Attribute* attribute(std::uint32_t id) const {

@@ -37,6 +37,8 @@ struct EmbreeDevice {
     void build(RTCScene scene, std::size_t triangle_count, bool filters) const;
     /// positions: of the mesh's vertices. They and the mesh are read in place.
     Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const;
+    /// They are read in place.
+    Owned<RTCGeometry> make_curves(const Curves& curves) const;
 };
 
 /// A mesh in its own space.

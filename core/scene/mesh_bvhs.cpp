@@ -48,7 +48,7 @@ Owned<RTCGeometry> EmbreeDevice::make_triangles(const Mesh& mesh, const std::vec
 }
 
 MeshBvh::MeshBvh(const EmbreeDevice& device, const Mesh& mesh, bool filters) : scene(device.make_scene()) {
-    const auto geometry = device.make_triangles(mesh, mesh.positions);
+    const auto geometry = mesh.curves ? device.make_curves(*mesh.curves) : device.make_triangles(mesh, mesh.positions);
     rtcSetGeometryMask(geometry.get(), ~0u);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(scene.get(), geometry.get(), 0);

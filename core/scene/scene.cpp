@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/geometry/curves.h"
+
 namespace pivot {
 namespace {
 
@@ -20,6 +22,7 @@ void require_finite(const Transform& t, const std::string& object) {
 }
 
 void require_valid(const Mesh& mesh) {
+    if (mesh.curves) return;  // make_curves() has looked at them
     const auto fail = [&](const std::string& what) {
         throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
     };
@@ -428,6 +431,7 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
         const Mesh& mesh = *meshes_[instances_[i]->mesh];
+        if (mesh.curves) continue;
         auto& of_mesh = sites[instances_[i]->mesh];
         if (!of_mesh) of_mesh = std::make_shared<const BentConeSites>(mesh);
         cones[i].emplace(ray_tracer_, mesh, of_mesh, instances_[i]->world_from_object, reach, should_stop);
@@ -437,8 +441,15 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     bent_cone_reach_ = std::move(reach);
 }
 
-HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
-    return triangle_of(*instances_[hit.instance], mesh_of(hit), hit.triangle);
+HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit, const Vec3f& direction) const {
+    const Instance& instance = *instances_[hit.instance];
+    const Mesh& mesh = *meshes_[instance.mesh];
+    if (!mesh.curves) return triangle_of(instance, mesh, hit.triangle);
+    const Vec3f direction_object = glm::inverse(instance.world_from_object.linear) * direction;
+    HitTriangleOf<float> triangle = touching_triangle(*mesh.curves, hit.triangle, hit.barycentric, direction_object);
+    triangle.world_from_object = instance.world_from_object;
+    triangle.normal_matrix = instance.normal_matrix;
+    return triangle;
 }
 
 }  // namespace pivot

@@ -128,9 +128,10 @@ class Scene {
     bool has_holdouts() const { return has_holdouts_; }
     bool is_holdout(const RayHit& hit) const { return instances_[hit.instance]->is_holdout; }
     Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
-    HitTriangleOf<float> hit_triangle(const RayHit& hit) const;
+    /// direction: of the ray, world, of any length.
+    HitTriangleOf<float> hit_triangle(const RayHit& hit, const Vec3f& direction) const;
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
-        return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
+        return pivot::surface_point(hit_triangle(hit, ray.direction), hit.barycentric, -ray.direction);
     }
     /// What every material means; an id is its place.
     std::span<const Shader> shaders() const { return shaders_; }
@@ -146,7 +147,8 @@ class Scene {
     const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
-        return bent_cones_[hit.instance]->at(hit, point.front > 0.0f);
+        const std::optional<BentCones>& cones = bent_cones_[hit.instance];  // none of curves
+        return cones ? cones->at(hit, point.front > 0.0f) : Cap<float>{point.frame.z, 1.0f};
     }
 
    private:

@@ -26,6 +26,7 @@ NODE = {
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
     "ShaderNodeBsdfSheen": Table(used="distribution"),
+    "ShaderNodeBsdfHairPrincipled": Table(used="model parametrization"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
@@ -141,6 +142,12 @@ INPUTS = {
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
+    # What is Huang's alone is reported with the model.
+    "ShaderNodeBsdfHairPrincipled": Inputs(
+        "Color, Melanin, Melanin Redness, Tint, Absorption Coefficient, Roughness, Radial Roughness, Coat, IOR, Offset,"
+        "Random Color, Random Roughness, Random",
+        no_meaning="Weight, Aspect Ratio, R lobe, TT lobe, TRT lobe",
+    ),
     "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfAnisotropic": Inputs("Color, Roughness, Normal, Anisotropy, Rotation, Tangent", no_meaning="Weight"),
@@ -235,6 +242,7 @@ INPUTS = {
     "ShaderNodeVertexColor": Inputs(),
     "ShaderNodeObjectInfo": Inputs(),
     "ShaderNodeParticleInfo": Inputs(),
+    "ShaderNodeHairInfo": Inputs(),
     "ShaderNodeLightPath": Inputs(),
     "ShaderNodeCameraData": Inputs(),
     "ShaderNodeLayerWeight": Inputs("Blend, Normal"),

@@ -85,9 +85,6 @@ def _reports() -> Any:
     bpy.context.scene.render.use_motion_blur = True
     catcher = parts.quad("catcher")
     catcher.is_shadow_catcher = True
-    hair = parts.quad("hair")
-    hair.modifiers.new("hair", "PARTICLE_SYSTEM")
-    hair.particle_systems[0].settings.type = "HAIR"
     world = parts.world((1, 1, 1))
     world.cycles_visibility.diffuse = False
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
