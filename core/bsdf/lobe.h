@@ -37,11 +37,11 @@ concept DiffuseLobe = requires {
     requires L::is_diffuse;
 };
 
-/// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
-/// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light; and eval_diffuse(wo, wi), the part of eval() that is; its Parameters turn_over(mask),
-/// which makes them those of the surface's back, and turn_normals(local_of, mask), which takes normals of theirs out of
-/// world space; and is_diffuse, see DiffuseLobe.
+/// What a kind of lobe must have, T its number type. It may have add_highlights(HighlightsOf<T>&, wo, mask), which adds
+/// GGX lobes that light samples may follow and what these leave out (of a diffuse lobe, whether it is even enough); and
+/// highlight_probability(), below which u_lobe draws what is no diffuse light; and eval_diffuse(wo, wi), the part of
+/// eval() that is; its Parameters turn_over(mask), which makes them those of the surface's back, and
+/// turn_normals(local_of, mask), which takes normals of theirs out of world space; and is_diffuse, see DiffuseLobe.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {
