@@ -1014,6 +1014,20 @@ LOBES: dict = {
     },
     "sheen": {"color": (3, 0.0, 3.4028234663852886e38), "roughness": (1, 0.0, 1.0)},
     "velvet": {"color": (3, 0.0, 3.4028234663852886e38), "sigma": (1, 0.0, 1.0)},
+    "subsurface": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "albedo": (3, 0.0, 1.0),
+        "radius_m": (3, 0.0, 3.4028234663852886e38),
+        "anisotropy": (1, -0.9900000095367432, 0.9900000095367432),
+        "ior": (1, 1.0099999904632568, 3.799999952316284),
+        "entry_alpha": (1, 0.0, 1.0),
+        "cosine_entry": (1, 0.0, 1.0),
+        "is_diffusion_length": (1, 0.0, 1.0),
+        "is_similar": (1, 0.0, 1.0),
+        "is_always_walked": (1, 0.0, 1.0),
+        "disney": (1, 0.0, 1.0),
+        "roughness": (1, 0.0, 1.0),
+    },
 }
 LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3

@@ -13,6 +13,7 @@
 #include "core/bsdf/lobes/further_base.h"
 #include "core/bsdf/lobes/oren_nayar.h"
 #include "core/bsdf/lobes/sheen.h"
+#include "core/bsdf/lobes/subsurface.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
 #include "core/bsdf/lobes/velvet.h"
@@ -22,7 +23,7 @@ namespace pivot {
 
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
-                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>>;
+                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Subsurface<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
