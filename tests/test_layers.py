@@ -61,6 +61,7 @@ EMBREE_FILES = {
     for name in (
         "embree.h",
         "embree_curves.cpp",
+        "inner_rays.cpp",
         "instance_bvhs.cpp",
         "instance_bvhs.h",
         "mesh_bvhs.cpp",

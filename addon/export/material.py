@@ -173,6 +173,8 @@ class MaterialTable:
             left_out.append("its triangles light others by a mean of each, in grey")
         if any(_is_frosted(dielectric) for dielectric in surface.dielectrics):
             left_out.append("lamps do not shine through its rough glass")
+        if any(lobe.kind == "subsurface" for lobe in surface.lobes):
+            left_out.append("what is scattered beneath its surface comes out where it entered, as from a diffuse one")
         for what in left_out:
             self._context.reporter.warn(f"{owner.name}: in the analytic integrator {what}. Fix: use Monte Carlo")
 

@@ -14,6 +14,7 @@
 #include "core/bsdf/lobes/hair.h"
 #include "core/bsdf/lobes/oren_nayar.h"
 #include "core/bsdf/lobes/sheen.h"
+#include "core/bsdf/lobes/subsurface.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/translucent.h"
 #include "core/bsdf/lobes/velvet.h"
@@ -23,7 +24,7 @@ namespace pivot {
 
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
-                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>>;
+                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>

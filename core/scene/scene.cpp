@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/geometry/curves.h"
+#include "core/bsdf/subsurface_entry.h"
 
 namespace pivot {
 namespace {
@@ -283,6 +284,7 @@ void Scene::commit() {
     commit_visibility();
     media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
     ray_tracer_.commit();
+    commit_inner_rays();
     for (const Shader& shader : shaders_) shader.program.make_image_levels();
     world_.program.make_image_levels();
     commit_lamps();
@@ -316,6 +318,15 @@ Batch Scene::filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, 
         return !shaders_[pivot::material_of(instance, *meshes_[instance.mesh], triangle)].is_transparent();
     };
     return ray_tracer_.filtered(rays, most, is_opaque, found);
+}
+
+void Scene::commit_inner_rays() {
+    std::vector<bool> has_inside(instances_.size());
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        has_inside[i] = instances_[i] && std::ranges::any_of(instances_[i]->materials, [&](std::uint32_t id) {
+                            return has_subsurface(shaders_[id].constants);
+                        });
+    inner_rays_.set(meshes_, instances_, has_inside);
 }
 
 void Scene::commit_lamps() {

@@ -10,6 +10,7 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
+#include "core/scene/inner_rays.h"
 #include "core/scene/light_rules.h"
 #include "core/scene/media.h"
 #include "core/scene/triangle_lights.h"
@@ -32,7 +33,8 @@ struct SharedMeshes {
 class Scene {
    public:
     Scene() = default;
-    explicit Scene(std::shared_ptr<SharedMeshes> shared) : shared_(std::move(shared)), ray_tracer_(shared_->bvhs) {}
+    explicit Scene(std::shared_ptr<SharedMeshes> shared)
+        : shared_(std::move(shared)), ray_tracer_(shared_->bvhs), inner_rays_(shared_->bvhs) {}
 
     std::uint32_t add_mesh(Mesh mesh);
     /// One that another scene has, by the same SharedMeshes.
@@ -125,6 +127,8 @@ class Scene {
                    std::span<std::optional<RayHit>> hits) const {
         ray_tracer_.intersect(rays, from, hits);
     }
+    /// Inside those instances beneath whose surface light goes; of no instance in most scenes.
+    const InnerRays& inner_rays() const { return inner_rays_; }
     bool has_holdouts() const { return has_holdouts_; }
     bool is_holdout(const RayHit& hit) const { return instances_[hit.instance]->is_holdout; }
     Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
@@ -167,6 +171,7 @@ class Scene {
     std::optional<Light>& light_at(std::uint32_t id);
     void require_materials(const Instance& instance) const;
     void commit_visibility();
+    void commit_inner_rays();
     void commit_lamps();
     void commit_triangle_lights();
     void commit_light_rules();
@@ -195,6 +200,7 @@ class Scene {
     Camera camera_;
     CameraFacts camera_facts_;
     RayTracer ray_tracer_;
+    InnerRays inner_rays_;
     std::unique_ptr<const Media> media_;
     bool has_transparency_ = false, has_holdouts_ = false;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
