@@ -35,6 +35,7 @@ class Slots:
     attributes: frozenset[str]  # that they read of their meshes
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
+    is_filled: bool = False
 
     def ids_without_surface(self) -> tuple[int, ...]:
         """Of faces that all have none: what the other slots have does not count."""
@@ -82,6 +83,7 @@ class MaterialTable:
             attributes=frozenset().union(*(look.attributes for look in looks)),
             without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
+            is_filled=any(volume is not None for volume in volumes),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:
