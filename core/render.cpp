@@ -63,8 +63,8 @@ std::optional<float> radiance_variance(std::span<const Sample> samples) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum = s.radiance + s.indirect + s.denoising_albedo + s.normal + s.albedo + s.emission + s.method +
-                      s.volume_direct + s.volume_indirect;
+    const Vec3f sum = s.radiance + s.indirect + s.denoising_albedo + s.denoising_normal + s.normal + s.albedo +
+                      s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 

@@ -170,6 +170,25 @@ Vec3<T> denoising_albedo(const SurfaceOf<T>& surface) {
     return min(albedo, Vec3<T>(T(1)));
 }
 
+/// The part of denoising_albedo() by which others are seen: what it reflects as a mirror, or lets through as clear
+/// glass.
+template <class T>
+Vec3<T> clear_albedo(const SurfaceOf<T>& surface) {
+    const Vec3<T> black(T(0));
+    const auto is_clear = [](const T& alpha) { return alpha <= T(0.075f); };
+    const auto of_base = [&](const BaseOf<T>& base) {
+        return select(base.has_glossy() && is_clear(base.alpha), glossy_albedo(base), black);
+    };
+    Vec3<T> albedo = of_base(surface);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (requires { lobe.base; })
+            albedo += select(is_kind, of_base(lobe.base), black);
+        else if constexpr (requires { lobe.alpha; })
+            albedo += select(is_kind && is_clear(lobe.alpha), lobe.albedo(surface.wo_local), black);
+    });
+    return min(albedo, Vec3<T>(T(1)));
+}
+
 /// Means over colours of what the lobes unlike a base's send to the viewer where all light around is 1, by the side
 /// that it comes from.
 template <class T>

@@ -112,23 +112,50 @@ PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Pat
     return batch;
 }
 
+using VectorLanes = std::array<Vec3f, batch_size>;
+
+VectorLanes lanes_of(const Vec3b& v) {
+    const Lanes x = store(v.x), y = store(v.y), z = store(v.z);
+    VectorLanes lanes;
+    for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = {x[i], y[i], z[i]};
+    return lanes;
+}
+
 /// What the passes tell of the first hits, and their own light.
 void see_first_hits(const Work& work, const PathBatch& batch) {
-    const auto lanes_of = [](const Vec3b& v) { return std::array{store(v.x), store(v.y), store(v.z)}; };
-    const auto normal = lanes_of(batch.vertices.point.frame.z),
-               albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
-    const auto all_albedo =
-        lanes_of(work.settings.denoising_passes ? denoising_albedo(batch.vertices.surface) : Vec3b(Batch(0.0f)));
-    const auto at = [](const auto& lanes, std::size_t i) { return Rgb(lanes[0][i], lanes[1][i], lanes[2][i]); };
+    const VectorLanes normal = lanes_of(batch.vertices.point.frame.z),
+                      albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
-        const Rgb emitted = batch.paths[i].throughput * at(emission, i);
+        const Rgb emitted = batch.paths[i].throughput * emission[i];
         sample.radiance += emitted;
         sample.emission += emitted;
         if (!(batch.paths[i].emission_weight > 0.0f)) continue;
-        sample.normal = at(normal, i);
-        sample.albedo = at(albedo, i);
-        if (work.settings.denoising_passes) sample.denoising_albedo = at(all_albedo, i);
+        sample.normal = normal[i];
+        sample.albedo = albedo[i];
+    }
+}
+
+/// What a denoiser goes by, up to the first surface that is not like a mirror or clear glass; of paths that meet none,
+/// the last.
+void see_features(const Work& work, std::uint32_t bounce, const PathBatch& batch) {
+    const auto is_seen = [&](const Path& path) {
+        return max_component(work.feature_worths[path.sample]) > 0.0f && (bounce > 0 || path.emission_weight > 0.0f);
+    };
+    if (std::ranges::none_of(batch.paths, is_seen)) return;
+    constexpr float least_clear = 0.75f;
+    const Vec3b all = denoising_albedo(batch.vertices.surface), through = clear_albedo(batch.vertices.surface);
+    const Lanes is_clear =
+        store(select(mean_component(through) > Batch(least_clear) * mean_component(all), Batch(1.0f), Batch(0.0f)));
+    const VectorLanes albedo = lanes_of(all), worth = lanes_of(through),
+                      normal = lanes_of(batch.vertices.point.frame.z);
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        if (!is_seen(batch.paths[i])) continue;
+        Sample& sample = work.samples[batch.paths[i].sample];
+        Rgb& so_far = work.feature_worths[batch.paths[i].sample];
+        sample.denoising_albedo = so_far * albedo[i];
+        sample.denoising_normal = normal[i];
+        so_far *= is_clear[i] * worth[i];
     }
 }
 
@@ -283,6 +310,7 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
         see_first_hits(work, batch);
     else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
         add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
+    if (!work.feature_worths.empty()) see_features(work, bounce, batch);
     if (bounce > work.settings.max_bounces) return count;
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
@@ -326,6 +354,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? (has_media ? 2 : 1) * count : 0,
                                      std::numeric_limits<float>::infinity());
     std::vector<PassShares> pass_shares(passes.size());
+    std::vector<Rgb> feature_worths(settings.denoising_passes ? (has_media ? 2 : 1) * count : 0, Rgb(1.0f));
     const Work work{scene,
                     settings,
                     has_media ? std::span<const Sampler>(own_samplers) : samplers,
@@ -333,7 +362,8 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                     memory,
                     min_pdf_omega,
                     passes,
-                    pass_shares};
+                    pass_shares,
+                    feature_worths};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;

@@ -40,6 +40,8 @@ struct Work {
     std::span<float> min_pdf_omega;       ///< of each path's BSDF samples so far; empty where nothing is blurred
     std::span<SurfacePasses> passes{};    ///< of each sample that first meets a surface; empty: nobody asks
     std::span<PassShares> pass_shares{};  ///< likewise, of the path so far
+    std::span<Rgb> feature_worths{};      ///< of each sample, how much mirrors and glass so far show of what a denoiser
+                                          ///< goes by, 0 once that is known; empty: there is no denoiser
 };
 
 /// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn

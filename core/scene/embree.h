@@ -1,4 +1,5 @@
-// Embree's handles, owned, and how its geometry and BVHs are made. Seen by the files of BVHs and by ray_tracer.cpp alone.
+// Embree's handles, owned, and how its geometry and BVHs are made. Seen by the files of BVHs and by ray_tracer.cpp
+// alone.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)
