@@ -13,6 +13,7 @@ from . import core, denoise
 from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
 from .export.images import ImageCache
+from .export.motion import export_motion, in_the_middle, shutter_of
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
@@ -108,13 +109,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         result = self.begin_result(0, 0, *frame.window_size, layer=depsgraph.view_layer.name, view=view)
         done = False
         try:
-            if context is None:
-                self.update_stats("", "Exporting the scene")
-                say = _say_nothing if self.is_preview else self.report
-                reporter = Reporter(say, self.said_in_job)
-                cache = self.preview_images if self.is_preview else self.images
-                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
-            export_camera(context, self, frame)
+            context = self._export(native, depsgraph, frame, context)
             if self.strict:
                 context.reporter.refuse()
             samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
@@ -133,6 +128,23 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             done = True
         finally:
             self.end_result(result, cancel=not done)
+        return context
+
+    def _export(self, native: Any, depsgraph: bpy.types.Depsgraph, frame: Frame, known: Context | None) -> Context:
+        """The scene and this view's camera. known: the scene as another view has it, None for the first."""
+        shutter = None if self.is_preview else shutter_of(depsgraph.scene, depsgraph.view_layer)
+        with in_the_middle(self, depsgraph.scene, shutter):
+            context = known
+            if context is None:
+                self.update_stats("", "Exporting the scene")
+                say = _say_nothing if self.is_preview else self.report
+                reporter = Reporter(say, self.said_in_job)
+                cache = self.preview_images if self.is_preview else self.images
+                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
+            motion = None
+            if shutter is not None:
+                motion = export_motion(context, self, shutter, self._check_cancel, only_camera=known is not None)
+            export_camera(context, self, frame, motion)
         return context
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:

@@ -176,9 +176,38 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
                                transforms, facts);
 }
 
+std::shared_ptr<const MovingTransform> to_motion(const FloatArray& steps, const string& what) {
+    require_shape(steps, what, {-1, 4, 4});
+    if (steps.shape(0) < 2 || static_cast<std::size_t>(steps.shape(0)) > MovingTransform::max_steps)
+        throw py::value_error(what + " must have 2 to 129 steps");
+    std::vector<Transform> transforms;
+    for (py::ssize_t i = 0; i < steps.shape(0); ++i) transforms.push_back(to_transform(steps.data(i)));
+    return std::make_shared<const MovingTransform>(transforms);
+}
+
+void set_mesh_motion(Scene& scene, std::uint32_t id, const std::vector<FloatArray>& positions,
+                     const optional<std::vector<FloatArray>>& corner_normals,
+                     const optional<std::vector<FloatArray>>& vertex_normals) {
+    const auto rows_of = [&](const optional<std::vector<FloatArray>>& steps, std::size_t i, const string& what) {
+        if (!steps) return std::vector<Vec3f>();
+        if (steps->size() != positions.size()) throw py::value_error(what + " must have as many steps as positions");
+        require_shape((*steps)[i], what, {-1, 3});
+        return copy_rows<Vec3f>((*steps)[i]);
+    };
+    std::vector<MeshStep> steps;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        require_shape(positions[i], "positions", {-1, 3});
+        steps.push_back({.positions = copy_rows<Vec3f>(positions[i], 1),
+                         .corner_normals = rows_of(corner_normals, i, "corner_normals"),
+                         .vertex_normals = rows_of(vertex_normals, i, "vertex_normals")});
+    }
+    scene.set_mesh_motion(id, std::move(steps));
+}
+
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
                 int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m,
-                const optional<Projection>& projection, const optional<Lens>& lens) {
+                const optional<Projection>& projection, const optional<Lens>& lens, const optional<FloatArray>& motion,
+                const optional<std::vector<float>>& shutter) {
     require_shape(camera_to_world, "camera: camera_to_world", {4, 4});
     Camera camera;
     camera.world_from_camera = to_transform(camera_to_world.data());
@@ -191,6 +220,8 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
     camera.clip_end_m = clip_end_m;
     camera.projection = projection.value_or(Perspective{});
     camera.lens = lens.value_or(Lens{});
+    if (motion) camera.motion = to_motion(*motion, "camera: motion");
+    if (shutter) camera.shutter = std::make_shared<const Shutter>(*shutter);
     scene.set_camera(camera);
 }
 
@@ -329,6 +360,16 @@ void register_scene(py::module_& module) {
             },
             py::arg("id"), py::arg("object_to_world"))
         .def(
+            "set_instance_motion",
+            [](Scene& scene, std::uint32_t id, const FloatArray& object_to_world) {
+                scene.set_instance_motion(id, to_motion(object_to_world, "object_to_world"));
+            },
+            py::arg("id"), py::arg("object_to_world"),
+            "object_to_world (S, 4, 4), at even times from when the shutter opens to when it closes: 2 to 129 steps.")
+        .def("set_mesh_motion", &set_mesh_motion, py::arg("id"), py::arg("positions"),
+             py::arg("corner_normals") = py::none(), py::arg("vertex_normals") = py::none(),
+             "Of each step, likewise, what add_mesh was given, which is the middle of the motion.")
+        .def(
             "set_instance_visibility",
             [](Scene& scene, std::uint32_t id, const RayNames& hidden_from) {
                 scene.set_instance_visibility(id, visibility_of(hidden_from));
@@ -355,9 +396,13 @@ void register_scene(py::module_& module) {
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
              py::arg("clip_end_m") = infinity, py::arg("projection") = py::none(), py::arg("lens") = py::none(),
+             py::arg("motion") = py::none(), py::arg("shutter") = py::none(),
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
              "frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, "
-             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.");
+             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. "
+             "motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, "
+             "at "
+             "even times; all the time unless that is given.");
 }
 
 }  // namespace pivot::bindings

@@ -36,6 +36,7 @@ class Slots:
     attributes: frozenset[str]  # that they read of their meshes
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
+    is_filled: bool = False
 
     def of_mesh(self) -> frozenset[str]:
         """The attributes that are of meshes and curves."""
@@ -87,6 +88,7 @@ class MaterialTable:
             attributes=frozenset().union(*(look.attributes for look in looks)),
             without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
+            is_filled=any(volume is not None for volume in volumes),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:

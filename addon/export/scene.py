@@ -48,6 +48,7 @@ class _Group:
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
     is_placed: bool  # what fills it is as its first instance has it
+    is_filled: bool
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
 
 
@@ -61,6 +62,7 @@ def _group_of(
     is_placed: bool,
     mattes: Mattes,
     reads: frozenset[str] = frozenset(),
+    is_filled: bool = True,
 ) -> _Group:
     matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return _Group(
@@ -73,6 +75,7 @@ def _group_of(
         pass_index=blender_object.pass_index,
         reads=reads,
         is_placed=is_placed,
+        is_filled=is_filled,
     )
 
 
@@ -225,6 +228,9 @@ class _Exporter:
             if domain is not None:
                 return self._smoke_groups(interior, domain, slot_materials)
             slots = self._materials.slots(slot_materials, interior)
+            parts = self._core_meshes(blender_object, mesh, slots)
+            for part, _ in parts:
+                self._context.placed.meshes.setdefault(part, index)
             return [
                 _group_of(
                     blender_object,
@@ -233,8 +239,9 @@ class _Exporter:
                     slots.is_placed,
                     self._context.mattes,
                     slots.attributes,
+                    slots.is_filled,
                 )
-                for part, is_passed in self._core_meshes(blender_object, mesh, slots)
+                for part, is_passed in parts
             ]
 
     def _strand_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
@@ -352,7 +359,7 @@ class _Exporter:
                 f"object '{group.name}': its transform is not finite. Fix: check its location, rotation, scale, "
                 "drivers and constraints"
             )
-        self._context.scene.add_instances(
+        first = self._context.scene.add_instances(
             group.name,
             group.mesh,
             np.ascontiguousarray(object_to_world),
@@ -368,6 +375,9 @@ class _Exporter:
             uv=told.uv[indices],
             attributes=dict(group.attributes),
         )
+        self._context.placed.instances.append((indices, first))
+        if group.is_filled:
+            self._context.placed.filled.update(indices)
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

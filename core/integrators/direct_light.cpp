@@ -44,9 +44,14 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
+    const Lanes times = store(vertices.point.time);
+    std::array<std::optional<Light>, batch_size> moved;
     std::array<const Light*, batch_size> lights;
-    for (std::size_t i = 0; i < batch_size; ++i)
-        lights[i] = &scene.light(picks.light[std::min(i, vertices.count() - 1)]);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const std::size_t place = picks.light[std::min(i, vertices.count() - 1)];
+        if (scene.is_moving_light(place)) moved[i] = scene.light_at(place, times[i]);
+        lights[i] = moved[i] ? &*moved[i] : &scene.light(place);
+    }
     const Batch expected = load(picks.expected_samples);
     BatchMask left = expected > Batch(0.0f) && vertices.is_vertex();
     // BSDF samples that meet emissive meshes count whatever is there.
@@ -111,13 +116,14 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
 
 /// The ray that a light sample of a triangle stands for, where that is met, a bounce on.
 Arrival arrival_at(const Scene& scene, const SceneTriangle& triangle, const AreaLight& light, const Vec3f& origin,
-                   const Vec3f& wi) {
+                   const Vec3f& wi, float time) {
     const float distance_m = dot(light.center - origin, light.normal) / dot(wi, light.normal);
     const Vec2f place = area_coordinates(light, origin + distance_m * wi);
     const RayHit hit{.distance_m = distance_m,
                      .instance = triangle.instance,
                      .triangle = triangle.triangle,
-                     .barycentric = barycentric_in_triangle(place)};
+                     .barycentric = barycentric_in_triangle(place),
+                     .time = time};
     return {
         .direction = wi, .hit = hit, .material = scene.material_of(hit), .footprint_m = 0.0f, .ray_kind = diffuse_ray};
 }
@@ -132,12 +138,13 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     const Lanes brought = store(max_component(abs(samples.radiance)));
     const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
     const Vec3b& from = vertices.point.position;
-    const Lanes x = store(from.x), y = store(from.y), z = store(from.z);
+    const Lanes x = store(from.x), y = store(from.y), z = store(from.z), times = store(vertices.point.time);
     for (std::size_t i = 0; i < vertices.count(); ++i) {
         const auto triangle = brought[i] > 0.0f ? scene.varying_triangle(picks.light[i]) : std::nullopt;
         if (!triangle) continue;
-        const auto& light = std::get<AreaLight>(scene.light(picks.light[i]));
-        arrivals[count] = arrival_at(scene, *triangle, light, {x[i], y[i], z[i]}, each[i].wi);
+        const Light light = scene.light_at(picks.light[i], times[i]);
+        arrivals[count] =
+            arrival_at(scene, *triangle, std::get<AreaLight>(light), {x[i], y[i], z[i]}, each[i].wi, times[i]);
         in_turn[count] = &arrivals[count];
         lane_of[count++] = i;
     }
@@ -187,7 +194,8 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
               RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
                            .direction = samples.wi,
                            .near_m = Batch(0.0f),
-                           .far_m = select(adds, samples.reach_m, Batch(0.0f))},
+                           .far_m = select(adds, samples.reach_m, Batch(0.0f)),
+                           .time = vertices.point.time},
               is_open);
     };
     const BatchMask none(false);

@@ -63,7 +63,7 @@ struct Seen {
 Seen look(const Scene& scene, std::uint32_t max_passages, const SurfacePoint& point, std::span<const WeightedPoint> all,
           bool traces_rays) {
     std::vector<Ray> rays;
-    for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
+    for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m, point.time});
     std::vector<Rgb> open(rays.size(), Rgb(1.0f));
     ProgramMemory memory;
     if (traces_rays) light_along(scene, max_passages, rays, open, memory);

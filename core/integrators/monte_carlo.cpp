@@ -64,7 +64,7 @@ float emission_weight(const Work& work, std::uint32_t bounce, const VertexBatch&
                       std::size_t lane, const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
     const auto index = work.scene.light_of(hit);
     if (!index) return 1.0f;
-    const Light& light = work.scene.light(*index);
+    const Light light = work.scene.light_at(*index, hit.time);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return 1.0f;
     return bsdf_weight(light, work.settings.light_sampling, bounce, vertices.lane(lane), *place,
@@ -215,7 +215,8 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     return {.rays = {.origin = vertices.point.ray_origin(wi),
                      .direction = wi,
                      .near_m = zero,
-                     .far_m = select(goes_on, std::numeric_limits<Batch>::infinity(), zero)},
+                     .far_m = select(goes_on, std::numeric_limits<Batch>::infinity(), zero),
+                     .time = vertices.point.time},
             .throughput = throughput,
             .pdf_omega = pdf,
             .goes_on = goes_on,

@@ -67,6 +67,7 @@ inline RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
     r.tnear = ray.near_m;
     r.tfar = ray.far_m;
+    r.time = ray.time;
     r.mask = mask;
     return r;
 }

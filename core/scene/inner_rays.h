@@ -28,6 +28,7 @@ class InnerRays {
     struct Inside {
         std::shared_ptr<const MeshBvh> bvh;  ///< none: there is no inside
         Transform object_from_world;
+        std::shared_ptr<const MovingTransform> world_from_moving;  ///< none: it stays where it is
     };
     std::shared_ptr<MeshBvhs> bvhs_;
     std::vector<Inside> insides_;  ///< of each instance; empty: none has any

@@ -13,11 +13,11 @@ constexpr std::size_t max_copied_triangles = 1u << 19;
 /// Where meshes have shared BVHs, so many triangles of small ones are put into one BVH anew for each scene: some 5 ms.
 constexpr std::size_t max_rebuilt_triangles = 1u << 15;
 
-void set_transform(RTCGeometry geometry, const Transform& transform) {
+void set_transform(RTCGeometry geometry, unsigned step, const Transform& transform) {
     const Mat3<float>& m = transform.linear;
     const Vec3f& t = transform.translation;
     const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z, t.x, t.y, t.z};
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcSetGeometryTransform(geometry, step, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
 }
 
 }  // namespace
@@ -35,6 +35,12 @@ InstanceBvhs::InstanceBvhs(std::shared_ptr<MeshBvhs> shared, bool finds_crossing
 }
 
 void InstanceBvhs::set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh) {
+    if (meshes_.contains(mesh_id)) {
+        for (auto& [id, instance] : placed_)
+            if (instance.mesh == mesh_id) detach(id, instance);
+        mesh_bvhs_.erase(mesh_id);
+        changed_ = true;
+    }
     meshes_[mesh_id] = std::move(mesh);
 }
 
@@ -43,6 +49,13 @@ void InstanceBvhs::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id
     const bool was_placed = placed_.contains(instance_id);
     remove_instance(instance_id);
     placed_[instance_id] = {mesh_id, world_from_object, visibility, was_placed};
+    changed_ = true;
+}
+
+void InstanceBvhs::set_instance_motion(std::uint32_t instance_id, std::shared_ptr<const MovingTransform> motion) {
+    Placed& instance = placed_.at(instance_id);
+    detach(instance_id, instance);
+    instance.motion = std::move(motion);
     changed_ = true;
 }
 
@@ -83,7 +96,7 @@ void InstanceBvhs::commit() {
 Owned<RTCGeometry> InstanceBvhs::make_instance(RTCScene scene, const Transform& world_from_object) const {
     Owned<RTCGeometry> geometry(rtcNewGeometry(device_->handle.get(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryInstancedScene(geometry.get(), scene);
-    set_transform(geometry.get(), world_from_object);
+    set_transform(geometry.get(), 0, world_from_object);
     return geometry;
 }
 
@@ -110,6 +123,11 @@ void InstanceBvhs::attach_still(std::uint32_t id, Placed& instance) {
 
 void InstanceBvhs::attach_moving(std::uint32_t id, Placed& instance) {
     const Owned<RTCGeometry> geometry = make_instance(scene_of_mesh(instance.mesh), instance.world_from_object);
+    if (instance.motion) {
+        const std::span<const Transform> steps = instance.motion->steps();
+        rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(steps.size()));
+        for (unsigned i = 0; i < steps.size(); ++i) set_transform(geometry.get(), i, steps[i]);
+    }
     rtcSetGeometryMask(geometry.get(), instance.visibility);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(world_.get(), geometry.get(), id + 1);
@@ -129,7 +147,8 @@ void InstanceBvhs::attach_all() {
         const std::size_t copied = shared_ || uses[instance.mesh] > 1 ? meshes_.at(instance.mesh)->triangles.size() : 0;
         const bool has_room = copied_triangles_ + copied <= (shared_ ? max_rebuilt_triangles : max_copied_triangles);
         // What is scaled flat has no space of its own to be traced in.
-        if (!instance.world_from_object.is_invertible() || (!instance.has_moved && has_room)) {
+        const bool is_kept = !instance.has_moved && !instance.motion && meshes_.at(instance.mesh)->steps.empty();
+        if (!instance.world_from_object.is_invertible() || (is_kept && has_room)) {
             attach_still(id, instance);
             copied_triangles_ += instance.copied_triangles = copied;
         } else {

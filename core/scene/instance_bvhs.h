@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/mesh.h"
-#include "core/math/transform.h"
+#include "core/math/moving_transform.h"
 #include "core/scene/embree.h"
 #include "core/scene/mesh_bvhs.h"
 
@@ -21,10 +21,12 @@ class InstanceBvhs {
     /// callback says, whether or not anything filters light.
     InstanceBvhs(std::shared_ptr<MeshBvhs> shared, bool finds_crossings);
 
+    /// Also in place of another, of whose instances it is then.
     void set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh);
     /// visibility: bits of Visibility.
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
+    void set_instance_motion(std::uint32_t instance_id, std::shared_ptr<const MovingTransform> motion);
     void set_visibility(std::uint32_t instance_id, std::uint32_t visibility);
     void remove_instance(std::uint32_t instance_id);
     /// Builds what has changed.
@@ -45,6 +47,7 @@ class InstanceBvhs {
         Transform world_from_object;
         std::uint32_t visibility;
         bool has_moved;
+        std::shared_ptr<const MovingTransform> motion = nullptr;  ///< null: it stays where it is
         Side side = Side::none;             ///< where it is attached; commit() does that: adding is quick
         std::size_t copied_triangles = 0;   ///< of what is still and has copies
         std::vector<Vec3f> positions = {};  ///< of the mesh in world space, of what is still

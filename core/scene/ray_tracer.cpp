@@ -45,7 +45,7 @@ bool fill_packet(BatchRays& packet, int* valid, const RayOf<Batch>& rays, const 
     const auto put = [](const Batch& from, float* to) { from.store_unaligned(to); };
     put(rays.origin.x, packet.org_x), put(rays.origin.y, packet.org_y), put(rays.origin.z, packet.org_z);
     put(rays.direction.x, packet.dir_x), put(rays.direction.y, packet.dir_y), put(rays.direction.z, packet.dir_z);
-    put(rays.near_m, packet.tnear), put(rays.far_m, packet.tfar), put(Batch(0.0f), packet.time);
+    put(rays.near_m, packet.tnear), put(rays.far_m, packet.tfar), put(rays.time, packet.time);
     bool any = false;
     for (std::size_t i = 0; i < batch_size; ++i) {
         valid[i] = packet.tfar[i] > 0.0f ? -1 : 0;
@@ -131,7 +131,8 @@ void keep_filtered(const RTCFilterFunctionNArguments* arguments) {
             RTCRayN_tfar(arguments->ray, n, i),
             InstanceBvhs::instance_of(RTCHitN_instID(arguments->hit, n, i, 0), RTCHitN_geomID(arguments->hit, n, i)),
             RTCHitN_primID(arguments->hit, n, i),
-            {RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i)}};
+            {RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i)},
+            RTCRayN_time(arguments->ray, n, i)};
         if (query->counts[lane] == (*query->most)[lane] || (*query->is_opaque)(hit.instance, hit.triangle)) continue;
         ++query->counts[lane];
         query->found->push_back({lane, hit});
@@ -163,6 +164,10 @@ void RayTracer::set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, c
     bvhs_->set_instance(instance_id, mesh_id, world_from_object, visibility);
 }
 
+void RayTracer::set_instance_motion(std::uint32_t instance_id, std::shared_ptr<const MovingTransform> motion) {
+    bvhs_->set_instance_motion(instance_id, std::move(motion));
+}
+
 void RayTracer::set_visibility(std::uint32_t instance_id, std::uint32_t visibility) {
     bvhs_->set_visibility(instance_id, visibility);
 }
@@ -178,8 +183,11 @@ std::optional<RayHit> RayTracer::intersect(const Ray& ray, Visibility from) cons
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     trace(rtcIntersect1, bvhs_->traced(), r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return RayHit{
-        r.ray.tfar, InstanceBvhs::instance_of(r.hit.instID[0], r.hit.geomID), r.hit.primID, {r.hit.u, r.hit.v}};
+    return RayHit{r.ray.tfar,
+                  InstanceBvhs::instance_of(r.hit.instID[0], r.hit.geomID),
+                  r.hit.primID,
+                  {r.hit.u, r.hit.v},
+                  ray.time};
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
@@ -251,7 +259,8 @@ RayHitOf<Batch> RayTracer::intersect(const RayOf<Batch>& rays, const WordBatch& 
     return {.distance_m = Batch::load_unaligned(r.ray.tfar),
             .instance = WordBatch::load_unaligned(instances.data()),
             .triangle = WordBatch::load_unaligned(r.hit.primID),
-            .barycentric = {Batch::load_unaligned(r.hit.u), Batch::load_unaligned(r.hit.v)}};
+            .barycentric = {Batch::load_unaligned(r.hit.u), Batch::load_unaligned(r.hit.v)},
+            .time = rays.time};
 }
 
 Batch RayTracer::visibility(const RayOf<Batch>& rays) const { return meet_nothing(bvhs_->traced(), rays, hides_light); }

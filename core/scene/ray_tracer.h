@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/geometry/mesh.h"
-#include "core/math/transform.h"
+#include "core/math/moving_transform.h"
 #include "core/scene/mesh_bvhs.h"
 #include "core/scene/visibility.h"
 #include "core/simd/batch.h"
@@ -24,6 +24,7 @@ struct RayOf {
     Vec3<T> direction;  ///< unit
     T near_m = T(0);
     T far_m = std::numeric_limits<T>::infinity();  ///< of a batch; not above 0: there is no such ray
+    T time = T(middle_time);                       ///< at which it meets what moves
 };
 
 template <class T>
@@ -31,7 +32,8 @@ struct RayHitOf {
     T distance_m;
     Word<T> instance;  ///< of a batch; no_instance: the ray met nothing
     Word<T> triangle;
-    Vec2<T> barycentric;  ///< weights of the triangle's second and third corner
+    Vec2<T> barycentric;      ///< weights of the triangle's second and third corner
+    T time = T(middle_time);  ///< the ray's
 };
 
 using Ray = RayOf<float>;
@@ -55,9 +57,12 @@ class RayTracer {
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;
 
+    /// Also in place of another, of whose instances it is then.
     void set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh);
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
+    /// Where an instance is at each time; until it is set again. Not of one that is scaled flat.
+    void set_instance_motion(std::uint32_t instance_id, std::shared_ptr<const MovingTransform> motion);
     /// Who sees an instance; at once, and without a build.
     void set_visibility(std::uint32_t instance_id, std::uint32_t visibility);
     void remove_instance(std::uint32_t instance_id);

@@ -141,7 +141,7 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
         "in grey. Fix: use Monte Carlo",
         "object 'pane of window', material 'window': in the analytic integrator lamps do not shine through its rough "
         "glass. Fix: use Monte Carlo",
-        "scene 'Scene': Motion Blur is not supported, the picture is sharp",
+        "scene 'Scene': Clamp Direct is not supported, nothing is clamped",
         "world 'World': Diffuse Visibility is not supported, it lights diffuse surfaces too",
     ]
     if host.version >= (4, 0):

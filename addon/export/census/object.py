@@ -74,9 +74,10 @@ OBJECT = {
             ),
             LeftOut("shadow_terminator_offset", 0.0, "shadows begin where they do without"),
         ),
-        # Motion blur and culling are reported with the scene that turns them on.
+        used="use_motion_blur use_deform_motion motion_steps",
+        # Culling is reported with the scene that turns it on.
         no_meaning="""
-        name use_motion_blur use_deform_motion motion_steps use_camera_cull use_distance_cull dicing_rate
+        name use_camera_cull use_distance_cull dicing_rate
         shadow_terminator_geometry_offset ao_distance is_caustics_caster is_caustics_receiver
         """,
     ),

@@ -32,7 +32,7 @@ OTHER_NODES = {
     *("OUTPUT_MATERIAL", "OUTPUT_WORLD", "OUTPUT_LIGHT"),
     *("RGB", "VALUE", "TEX_IMAGE", "TEX_ENVIRONMENT"),
 }
-CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX", "CUBIC")  # of them one at least changes the picture
+CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX", "CUBIC", "TOP")  # of them one at least changes the picture
 
 
 def main(folder: Path) -> Any:
@@ -128,7 +128,8 @@ def _things() -> dict[str, Any]:
     parts.clear()
     scene = bpy.context.scene
     scene.render.engine = "PIVOT"
-    scene.render.film_transparent = scene.render.use_simplify = True  # what some properties only then are for
+    # What some properties only then are for.
+    scene.render.film_transparent = scene.render.use_simplify = scene.render.use_motion_blur = True
     things = {kind: parts.light(kind, kind).data for kind in ("POINT", "SPOT", "SUN", "AREA")}
     quad = parts.quad("quad", material=parts.shaded("material", "ShaderNodeBsdfDiffuse")[0])
     collection = bpy.data.collections.new("collection")

@@ -82,7 +82,7 @@ def _reports() -> Any:
     fill = parts.light("fill", "POINT")
     if bpy.app.version >= (4, 0):
         fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
-    bpy.context.scene.render.use_motion_blur = True
+    bpy.context.scene.cycles.sample_clamp_direct = 1.0
     catcher = parts.quad("catcher")
     catcher.is_shadow_catcher = True
     world = parts.world((1, 1, 1))
