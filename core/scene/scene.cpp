@@ -5,8 +5,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/geometry/curves.h"
 #include "core/bsdf/subsurface_entry.h"
+#include "core/geometry/curves.h"
 
 namespace pivot {
 namespace {
