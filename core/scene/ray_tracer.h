@@ -50,6 +50,7 @@ enum Visibility : std::uint32_t {
     visible_to_all = 63,
     hides_light = 64,
     filters_light = 128,
+    shines_past_others = 256,  ///< its light has blockers of its own
 };
 
 /// Where a ray passes through a surface.
