@@ -17,13 +17,14 @@ from .export.motion import export_motion, in_the_middle, shutter_of
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
+from .named_passes import named_pass_values, named_passes
+from .pass_reader import PassReader
 from .passes import (
     channel_count,
     fill_layer,
     has_denoising_passes,
     has_mattes,
     has_surface_passes,
-    read_mattes,
     register_passes,
     report_passes,
     stamp_mattes,
@@ -31,6 +32,7 @@ from .passes import (
 from .progress import Progress
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values, surface_pass_values
+from .shadow_catchers import catcher_passes, catcher_values
 from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
@@ -121,9 +123,14 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             if has_mattes(depsgraph.view_layer):
                 values["mattes"] = True
             values |= surface_pass_values(context.scene, scene, depsgraph.view_layer)
+            values |= named_pass_values(depsgraph.view_layer)
+            values |= catcher_values(context.scene, scene, context.reporter)
             report_passes(scene, depsgraph.view_layer, context.reporter)
             settings = render_settings(context.core, scene, values)
-            self._run(context.core.Session(context.scene, settings), samples, mode, result, context.reporter)
+            session = context.core.Session(context.scene, settings)
+            reader = PassReader(scene, depsgraph.view_layer, values)
+            mode = mode if reader.denoises else "NONE"
+            self._run(session, samples, mode, result, reader, context.reporter)
             stamp_mattes(self.get_result(), context.mattes, depsgraph.view_layer)
             done = True
         finally:
@@ -165,7 +172,11 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         denoises = scene.pivot.denoise != "NONE" or any(map(has_denoising_passes, scene.view_layers))
         of_surfaces = any(map(has_surface_passes, scene.view_layers))
         film_pixel_bytes = native.Session.bytes_per_pixel(
-            scene.pivot.adaptive, denoises, of_surfaces, any(map(has_mattes, scene.view_layers))
+            scene.pivot.adaptive,
+            denoises,
+            of_surfaces,
+            any(map(has_mattes, scene.view_layers)),
+            max(2 * len(named_passes(layer)) for layer in scene.view_layers) + catcher_passes(scene),
         )
         check_memory(width, height, picture_bytes(width, height, film_pixel_bytes, channels))
 
@@ -173,7 +184,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         if self.test_break():
             raise _Cancelled
 
-    def _run(self, session: Any, samples: int, mode: str, result: Any, reporter: Reporter) -> None:
+    def _run(self, session: Any, samples: int, mode: str, result: Any, reader: PassReader, reporter: Reporter) -> None:
         """Render to the end, showing progress and, in the interface, the picture. Raises _Cancelled.
 
         mode: scene.pivot.denoise, or 'NONE' where that cannot be had.
@@ -185,10 +196,9 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             def read(name: str) -> Any:
                 if combined is not None and name == "Combined":
                     return combined
-                mattes = read_mattes(session, name)
-                return session.read(name) if mattes is None else mattes
+                return reader.read(session, name)
 
-            fill_layer(result.layers[0], session.width, session.height, read)
+            fill_layer(result.layers[0], session.width, session.height, reader.named, read)
             self.update_result(result)
 
         session.start()

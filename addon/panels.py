@@ -30,6 +30,7 @@ _BUILT_IN = (
     "VIEWLAYER_PT_layer",
     "VIEWLAYER_PT_override",
     "OBJECT_PT_custom_props",
+    "OBJECT_PT_shading",
     "OBJECT_PT_visibility",
     "DATA_PT_context_*",
     "DATA_PT_custom_props_*",
@@ -79,7 +80,7 @@ class PivotPanel:
         return context.engine in cls.COMPAT_ENGINES
 
 
-def _columns(panel: Any) -> Any:
+def columns(panel: Any) -> Any:
     """The layout of a panel, in Blender's two-column style."""
     panel.layout.use_property_split = True
     panel.layout.use_property_decorate = False
@@ -99,7 +100,7 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = _columns(self)
+        layout = columns(self)
         pivot = context.scene.pivot
         layout.prop(pivot, "integrator")
         layout.prop(pivot, "samples")
@@ -128,6 +129,21 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
         layout.prop(pivot, "time_limit")
 
 
+class PIVOT_RENDER_PT_bounce_limits(PivotPanel, bpy.types.Panel):
+    bl_label = "Bounce Limits"
+    bl_parent_id = "PIVOT_RENDER_PT_sampling"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.scene.pivot.integrator == "MONTE_CARLO"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = columns(self).column(align=True)
+        for kind in ("diffuse", "glossy", "transmission", "volume"):
+            column.prop(context.scene.pivot, f"{kind}_bounces")
+
+
 class PIVOT_RENDER_PT_chart(PivotPanel, bpy.types.Panel):
     bl_label = "Speed and Accuracy"
 
@@ -140,7 +156,7 @@ class PIVOT_RENDER_PT_film(PivotPanel, bpy.types.Panel):
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = _columns(self)
+        layout = columns(self)
         layout.prop(context.scene.render, "filter_size")
         layout.prop(context.scene.render, "film_transparent", text="Transparent")
 
@@ -150,7 +166,7 @@ class PIVOT_RENDER_PT_performance(PivotPanel, bpy.types.Panel):
     bl_options = frozenset({"DEFAULT_CLOSED"})
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = _columns(self)
+        layout = columns(self)
         render = context.scene.render
         layout.prop(render, "threads_mode")
         threads = layout.column()
@@ -188,7 +204,7 @@ class PIVOT_VIEWLAYER_PT_passes(PivotPanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column = _columns(self).column(heading="Include")
+        column = columns(self).column(heading="Include")
         labels = {entry.switch: entry.name_5_0 for entry in PASSES} | {"denoising_store_passes": "Denoising Data"}
         for entry in {entry.switch: entry for entry in PASSES}.values():
             switches = entry.switches(context.view_layer)
@@ -201,7 +217,7 @@ class PIVOT_VIEWLAYER_PT_own_passes(PivotPanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column = _columns(self).column(heading="Include")
+        column = columns(self).column(heading="Include")
         for entry in PASSES:
             if entry.settings == "pivot":
                 column.prop(context.view_layer.pivot, entry.switch)
@@ -213,7 +229,7 @@ class PIVOT_OBJECT_PT_ray_visibility(PivotPanel, bpy.types.Panel):
     bl_parent_id = "OBJECT_PT_visibility"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column = _columns(self).column()
+        column = columns(self).column()
         for kind in ("camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
             column.prop(context.object, f"visible_{kind}", text=kind.replace("_", " ").title())
         column.prop(context.object, "is_holdout")
@@ -225,7 +241,7 @@ class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
     bl_parent_id = "EEVEE_MATERIAL_PT_volume"
 
     def draw(self, context: bpy.types.Context) -> None:
-        _columns(self).prop(context.material.pivot, "phase")
+        columns(self).prop(context.material.pivot, "phase")
 
 
 class PIVOT_WORLD_PT_preview(PivotPanel, bpy.types.Panel):
@@ -256,7 +272,7 @@ class PIVOT_CAMERA_PT_panorama(PivotPanel, bpy.types.Panel):
         return bool(context.camera) and context.camera.type == "PANO" and super().poll(context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = _columns(self)
+        layout = columns(self)
         settings = panorama_settings(context.camera)
         layout.prop(settings, "panorama_type", text="Type")
         for name in panorama_names(settings.panorama_type):
@@ -275,7 +291,7 @@ class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
         light: Any = context.light
         layout = self.layout
         layout.row().prop(light, "type", expand=True)
-        layout = _columns(self)
+        layout = columns(self)
         column = layout.column()
         if hasattr(light, "use_temperature"):  # from Blender 4.5
             column.prop(light, "use_temperature")
@@ -309,6 +325,7 @@ class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):
 
 _CLASSES = (
     PIVOT_RENDER_PT_sampling,
+    PIVOT_RENDER_PT_bounce_limits,
     PIVOT_RENDER_PT_chart,
     PIVOT_RENDER_PT_film,
     PIVOT_RENDER_PT_performance,

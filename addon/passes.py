@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .export.mattes import Mattes
+from .named_passes import NamedPass, named_passes
 from .report import Reporter
 
 
@@ -47,6 +48,8 @@ def _light(name: str, name_5_0: str, switch: str) -> Pass:
 
 _DIFFUSE_COLOR = Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color")
 
+SHADOW_CATCHER = "Shadow Catcher"
+
 PASSES = (
     Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
     Pass("Depth", "Depth", "Depth", "Z", "VALUE", "use_pass_z"),
@@ -74,10 +77,12 @@ PASSES = (
     _of_surfaces("GlossCol", "Glossy Color", "RGB", "COLOR", "glossy_color"),
     _of_surfaces("TransCol", "Transmission Color", "RGB", "COLOR", "transmission_color"),
     _of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"),
+    _of_surfaces("AO", "Ambient Occlusion", "RGB", "COLOR", "ambient_occlusion"),
     _of_surfaces("UV", "UV", "UVA", "VECTOR", "uv"),
     _of_surfaces("Mist", "Mist", "Z", "VALUE", "mist"),
     _of_surfaces("IndexOB", "Object Index", "X", "VALUE", "object_index"),
     _of_surfaces("IndexMA", "Material Index", "X", "VALUE", "material_index"),
+    Pass(SHADOW_CATCHER, SHADOW_CATCHER, SHADOW_CATCHER, "RGB", "COLOR", "use_pass_shadow_catcher", "cycles"),
     Pass("Method", "Method", "Method", "RGB", "COLOR", "use_pass_method", "pivot"),
     Pass("Error", "Error", "Error", "X", "VALUE", "use_pass_error", "pivot"),
 )
@@ -134,6 +139,8 @@ def register_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, view
     for mattes in MATTES:
         for name in mattes.names(view_layer):
             engine.register_pass(scene, view_layer, name, 4, "RGBA", "COLOR")
+    for named in named_passes(view_layer):
+        engine.register_pass(scene, view_layer, named.name, len(named.channels), named.channels, named.kind)
 
 
 def has_denoising_passes(view_layer: bpy.types.ViewLayer) -> bool:
@@ -153,22 +160,31 @@ def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, repor
             f"view layer '{view_layer.name}': in the analytic integrator passes of direct and indirect light by "
             "reflection are black. Fix: use Monte Carlo"
         )
+    if scene.pivot.integrator == "ANALYTIC" and len(view_layer.lightgroups):
+        reporter.warn(
+            f"view layer '{view_layer.name}': in the analytic integrator passes of light groups are black. "
+            "Fix: use Monte Carlo"
+        )
 
 
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:
     """Channels of all passes that this view layer gets."""
     of_mattes = 4 * sum(len(mattes.names(view_layer)) for mattes in MATTES)
-    return of_mattes + sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
+    of_named = sum(len(named.channels) for named in named_passes(view_layer))
+    return of_mattes + of_named + sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
 
 
-def fill_layer(layer: Any, width: int, height: int, read: Callable[[str], NDArray[np.float32]]) -> None:
+def fill_layer(
+    layer: Any, width: int, height: int, named: list[NamedPass], read: Callable[[str], NDArray[np.float32]]
+) -> None:
     """Write what has been rendered into every pass of a bpy.types.RenderLayer.
 
-    read: takes the core's pass name or that of mattes; returns (height, width, channels) float32, bottom row first.
-    A pass that is not Pivot's (Freestyle's, say) becomes zero.
+    read: takes the core's pass name, that of mattes or of a named pass; returns (height, width, channels) float32,
+    bottom row first. A pass that is not Pivot's (Freestyle's, say) becomes zero.
     """
     core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
     core_names |= {target.name: target.name for target in layer.passes if target.name.startswith("Crypto")}
+    core_names |= {entry.name: entry.name for entry in named}
     if any(entry.of_surfaces and entry.blender_name() in layer.passes for entry in PASSES):
         core_names[_DIFFUSE_COLOR.blender_name()] = "Diffuse Color"  # what the light passes are to be multiplied by
     pixels = [

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from .viewport_passes import VIEWPORT_PASSES
+
+MOST_BOUNCES = 1024
 
 INTEGRATORS = (
     ("MONTE_CARLO", "Monte Carlo", "Unbiased path tracing: for final pictures and ground truth"),
@@ -62,6 +66,18 @@ def _settings_changed(_: PivotSettings, context: bpy.types.Context) -> None:
                 area.tag_redraw()
 
 
+def _bounce_limit(kind: str, what: str) -> Any:
+    """A bound beside Max Bounces; as high as that can be, it says nothing."""
+    return IntProperty(
+        name=f"{kind} Bounces",
+        description=f"The most {what} on a light path; light that comes straight counts none. Max Bounces counts, too",
+        default=MOST_BOUNCES,
+        min=0,
+        max=MOST_BOUNCES,
+        update=_settings_changed,
+    )
+
+
 class PivotSettings(bpy.types.PropertyGroup):
     integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="MONTE_CARLO", update=_settings_changed)
     samples: IntProperty(
@@ -107,9 +123,13 @@ class PivotSettings(bpy.types.PropertyGroup):
         description="Bounces of indirect light; 0 is direct light only",
         default=4,
         min=0,
-        max=1024,
+        max=MOST_BOUNCES,
         update=_settings_changed,
     )
+    diffuse_bounces: _bounce_limit("Diffuse", "reflections by diffuse surfaces")
+    glossy_bounces: _bounce_limit("Glossy", "reflections by glossy surfaces")
+    transmission_bounces: _bounce_limit("Transmission", "ways through surfaces that bend or scatter light")
+    volume_bounces: _bounce_limit("Volume", "times that fog scatters it")
     clamp_indirect: FloatProperty(
         name="Clamp Indirect",
         description=(

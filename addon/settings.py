@@ -8,6 +8,7 @@ import bpy
 
 from .export.attributes import UV_OF_PASS
 from .passes import has_surface_passes
+from .properties import MOST_BOUNCES
 from .report import naming
 
 
@@ -39,7 +40,12 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "transparent_film": scene.render.film_transparent,
         "max_passages": _max_transparent_bounces(scene),
         "max_path_passages": _max_path_passages(scene),
-    }
+    } | _bounce_limits(pivot)
+
+
+def _bounce_limits(pivot: Any) -> dict[str, Any]:
+    limits = [getattr(pivot, f"{kind}_bounces") for kind in ("diffuse", "glossy", "transmission", "volume")]
+    return {} if min(limits) == MOST_BOUNCES else {"bounce_limits": limits}
 
 
 _FALLOFFS = {"LINEAR": 1.0, "QUADRATIC": 2.0, "INVERSE_QUADRATIC": 0.5}
@@ -52,9 +58,14 @@ def surface_pass_values(core_scene: Any, scene: bpy.types.Scene, view_layer: bpy
     mist = scene.world.mist_settings if scene.world else None
     return {
         "surface_passes": True,
+        "occlusion_distance_m": _occlusion_distance_m(scene) if view_layer.use_pass_ambient_occlusion else 0.0,
         "uv_attribute": core_scene.attribute_id(UV_OF_PASS) if view_layer.use_pass_uv else -1,
         "mist": (mist.start, mist.depth, _FALLOFFS[mist.falloff]) if mist else (0.0, 100.0, 1.0),
     }
+
+
+def _occlusion_distance_m(scene: bpy.types.Scene) -> float:
+    return scene.world.light_settings.distance if scene.world else 10.0
 
 
 def _max_transparent_bounces(scene: bpy.types.Scene) -> int:

@@ -23,7 +23,9 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
                              float filter_glossy, const string& indirect, int virtual_lights,
                              const string& virtual_light_method, bool denoising_passes, int max_passages,
                              int max_path_passages, bool surface_passes, int uv_attribute,
-                             const std::array<float, 3>& mist, bool mattes) {
+                             const std::array<float, 3>& mist, bool mattes, int light_groups, int aovs,
+                             const std::array<std::uint32_t, 4>& bounce_limits, bool shadow_catchers,
+                             float occlusion_distance_m) {
     require(samples >= 1, "samples must be at least 1");
     require(max_bounces >= 0, "max_bounces must not be negative");
     require(max_passages >= 0, "max_passages must not be negative");
@@ -34,6 +36,8 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
     require(time_limit_s >= 0.0f, "time_limit_s must not be negative");
     require(virtual_lights >= 1 && virtual_lights <= 1 << 20, "virtual_lights must be in [1, 1048576]");
     require(threads >= 0, "threads must not be negative");
+    require(light_groups >= 0, "light_groups must not be negative");
+    require(aovs >= 0, "aovs must not be negative");
     require(filter_width_px >= 0.0f && filter_width_px < 100.0f, "filter_width_px must be in [0, 100)");
     return {
         .integrator = from_name<Integrator>(
@@ -43,6 +47,7 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .adaptive = adaptive,
         .seed = seed,
         .max_bounces = static_cast<std::uint32_t>(max_bounces),
+        .bounce_limits = {bounce_limits[0], bounce_limits[1], bounce_limits[2], bounce_limits[3]},
         .max_passages = static_cast<std::uint32_t>(max_passages),
         .max_path_passages = static_cast<std::uint32_t>(max_path_passages),
         .clamp_indirect = clamp_indirect,
@@ -72,7 +77,11 @@ RenderSettings make_settings(const string& integrator, int samples, std::uint32_
         .surface_passes = surface_passes,
         .mattes = mattes,
         .uv_attribute = uv_attribute,
-        .mist = {mist[0], mist[1], mist[2]}};
+        .light_groups = static_cast<std::uint32_t>(light_groups),
+        .aovs = static_cast<std::uint32_t>(aovs),
+        .mist = {mist[0], mist[1], mist[2]},
+        .shadow_catchers = shadow_catchers,
+        .occlusion_distance_m = occlusion_distance_m};
 }
 
 py::array_t<float> read(const Session& session, const string& pass_name) {
@@ -95,7 +104,11 @@ void register_render(py::module_& module) {
              py::arg("filter_glossy") = 0.0f, py::arg("indirect") = "NONE", py::arg("virtual_lights") = 4096,
              py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
              py::arg("max_path_passages") = 9, py::arg("surface_passes") = false, py::arg("uv_attribute") = -1,
-             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f}, py::arg("mattes") = false);
+             py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f}, py::arg("mattes") = false,
+             py::arg("light_groups") = 0, py::arg("aovs") = 0,
+             py::arg("bounce_limits") = std::array<std::uint32_t, 4>{~0u, ~0u, ~0u, ~0u},
+             py::arg("shadow_catchers") = false, py::arg("occlusion_distance_m") = 0.0f,
+             "bounce_limits: of diffuse, of glossy reflections, of those through surfaces and in media.");
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
@@ -117,12 +130,15 @@ void register_render(py::module_& module) {
         .def_property_readonly("height", [](const Session& s) { return s.film().height(); })
         .def_static(
             "bytes_per_pixel",
-            [](bool adaptive, bool denoising_passes, bool surface_passes, bool mattes) {
-                return Session::bytes_per_pixel(
-                    adaptive, {.own_sums = denoising_passes, .surface_passes = surface_passes, .mattes = mattes});
+            [](bool adaptive, bool denoising_passes, bool surface_passes, bool mattes, std::size_t named_passes) {
+                return Session::bytes_per_pixel(adaptive, {.own_sums = denoising_passes,
+                                                           .surface_passes = surface_passes,
+                                                           .mattes = mattes,
+                                                           .named_passes = named_passes});
             },
             py::arg("adaptive"), py::arg("denoising_passes") = false, py::arg("surface_passes") = false,
-            py::arg("mattes") = false, "What a session allocates for each pixel of its window.")
+            py::arg("mattes") = false, py::arg("named_passes") = 0,
+            "What a session allocates for each pixel of its window.")
         .def_property_readonly("bad_samples", &Session::bad_samples,
                                "The first few samples that were not finite and were left out, by pixel and object.")
         .def_property_readonly(
@@ -148,6 +164,36 @@ void register_render(py::module_& module) {
             "With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this "
             "rank "
             "on, the largest share first.")
+        .def(
+            "read_shadow_catchers",
+            [](const Session& session, const string& kind) {
+                const Film& film = session.film();
+                const std::size_t first = film.named_passes() - std::min(film.named_passes(), catcher_pass::count);
+                const bool is_factor = kind == "FACTOR";
+                const std::vector<float> values =
+                    is_factor ? shadow_catcher_factor(film, first)
+                              : read_catcher_picture(film, first,
+                                                     from_name<CatcherPicture>("kind", kind,
+                                                                               {{"NOTHING", CatcherPicture::nothing},
+                                                                                {"ALPHA", CatcherPicture::alpha},
+                                                                                {"WORLD", CatcherPicture::world}}));
+                return py::array_t<float>({film.height(), film.width(), is_factor ? 3 : 4}, values.data());
+            },
+            py::arg("kind"),
+            "With shadow_catchers. FACTOR: what others leave of light on these, (height, width, 3). NOTHING, ALPHA or "
+            "WORLD: Combined with nothing in their place, with alpha where they lose light, or with the world behind "
+            "them, darkened as much.")
+        .def(
+            "read_named",
+            [](const Session& session, std::size_t which) {
+                const Film& film = session.film();
+                const auto values = film.read_named(which);
+                return py::array_t<float>({film.height(), film.width(), 3}, values.data());
+            },
+            py::arg("which"),
+            "As float32 (height, width, 3) the light of one of the light_groups, which the analytic integrator leaves "
+            "black, or, counted after these, two of each of the aovs: what shaders give where a camera sees their "
+            "surfaces, and, in red, the share of the pixel where they do.")
         .def(
             "read", &read, py::arg("pass_name"),
             "A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along "

@@ -113,6 +113,9 @@ std::uint32_t add_curves(Scene& scene, const string& name, const FloatArray& pos
 }
 
 using RayNames = std::vector<string>;
+/// Receivers and blockers.
+using Masks = std::array<std::uint64_t, 2>;
+constexpr Masks all_sets{LightLinks{}.receivers, LightLinks{}.blockers};
 
 /// All but what is named.
 std::uint32_t visibility_of(const RayNames& hidden_from) {
@@ -128,11 +131,12 @@ std::uint32_t visibility_of(const RayNames& hidden_from) {
     return visibility;
 }
 
-LightRules rules_of(const RayNames& hidden_from, std::uint32_t max_bounces) {
+LightRules rules_of(const RayNames& hidden_from, std::uint32_t max_bounces, const Masks& links = all_sets) {
     const std::uint32_t visibility = visibility_of(hidden_from);
     return {.lights = visibility & visible_to_paths,
             .max_bounces = max_bounces,
-            .casts_shadows = (visibility & casts_shadows) != 0};
+            .casts_shadows = (visibility & casts_shadows) != 0,
+            .links = {links[0], links[1]}};
 }
 
 std::shared_ptr<const std::vector<ObjectAttribute>> object_attributes(
@@ -148,7 +152,8 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
                             const std::array<float, 2>& matte, const std::array<float, 4>& color, float pass_index,
                             const optional<FloatArray>& random, const optional<FloatArray>& particle_index,
                             const optional<FloatArray>& generated, const optional<FloatArray>& uv,
-                            const std::map<string, std::array<float, 4>>& attributes) {
+                            const std::map<string, std::array<float, 4>>& attributes, int light_group,
+                            const Masks& links, const std::array<std::uint8_t, 2>& link_sets, bool shadow_catcher) {
     const string prefix = "object '" + name + "': ";
     require_shape(object_to_world, prefix + "object_to_world", {-1, 4, 4});
     const py::ssize_t count = object_to_world.shape(0);
@@ -172,7 +177,18 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
         if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
     }
     const py::gil_scoped_release release;
-    return scene.add_instances({name, mesh, {}, materials, visibility_of(hidden_from), matte[0], matte[1], holdout},
+    return scene.add_instances({name,
+                                mesh,
+                                {},
+                                materials,
+                                visibility_of(hidden_from),
+                                matte[0],
+                                matte[1],
+                                holdout,
+                                static_cast<std::uint32_t>(light_group),
+                                {links[0], links[1]},
+                                {link_sets[0], link_sets[1]},
+                                shadow_catcher},
                                transforms, facts);
 }
 
@@ -228,11 +244,12 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
 using MediumShare = std::shared_ptr<Medium>;
 
 Shader with_medium(Shader material, const optional<MediumShare>& medium, bool has_surface, float pass_index = 0.0f,
-                   float matte = 0.0f) {
+                   float matte = 0.0f, bool filters_shadows = true) {
     material.medium = medium.value_or(nullptr);
     material.has_surface = has_surface;
     material.pass_index = pass_index;
     material.matte = matte;
+    material.filters_shadows = filters_shadows;
     return material;
 }
 
@@ -317,31 +334,42 @@ void register_scene(py::module_& module) {
              py::arg("matte") = std::array<float, 2>{}, py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f},
              py::arg("pass_index") = 0.0f, py::arg("random") = py::none(), py::arg("particle_index") = py::none(),
              py::arg("generated") = py::none(), py::arg("uv") = py::none(),
-             py::arg("attributes") = std::map<string, std::array<float, 4>>{},
+             py::arg("attributes") = std::map<string, std::array<float, 4>>{}, py::arg("light_group") = -1,
+             py::arg("links") = all_sets, py::arg("link_sets") = std::array<std::uint8_t, 2>{},
+             py::arg("shadow_catcher") = false,
              "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; "
              "hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and "
              "SHADOW; holdout: a camera sees a hole in their place; matte: ids of "
              "the object and the asset. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
-             "and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.")
+             "and from its instancer generated (N, 3) and uv (N, 2). light_group: of their emission, which passes show "
+             "apart. links: of their light, masks of the sets of receivers that it lights and of blockers whose "
+             "shadows it casts; link_sets: their own of both, by number. shadow_catcher: stand-ins for real things. "
+             "Returns the first of N consecutive ids.")
         .def(
             "add_material",
             [](Scene& scene, const string& name, const Shader& material, const optional<MediumShare>& medium,
-               bool has_surface, float pass_index, float matte) {
-                return scene.add_material(name, with_medium(material, medium, has_surface, pass_index, matte));
+               bool has_surface, float pass_index, float matte, bool filters_shadows) {
+                return scene.add_material(
+                    name, with_medium(material, medium, has_surface, pass_index, matte, filters_shadows));
             },
             py::arg("name"), py::arg("material"), py::arg("medium") = py::none(), py::arg("has_surface") = true,
-            py::arg("pass_index") = 0.0f, py::arg("matte") = 0.0f,
+            py::arg("pass_index") = 0.0f, py::arg("matte") = 0.0f, py::arg("filters_shadows") = true,
             "A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and "
-            "nothing but the medium is there.")
+            "nothing but the medium is there; without filters_shadows it hides light, whatever is seen through it.")
         .def(
             "add_light",
             [](Scene& scene, const string& name, const Light& light, const RayNames& hidden_from,
-               std::uint32_t max_bounces) { return scene.add_light(name, light, rules_of(hidden_from, max_bounces)); },
+               std::uint32_t max_bounces, int light_group, const Masks& links) {
+                return scene.add_light(name, light, rules_of(hidden_from, max_bounces, links),
+                                       static_cast<std::uint32_t>(light_group));
+            },
             py::arg("name"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u,
+            py::arg("light_group") = -1, py::arg("links") = all_sets,
             "hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and "
             "VOLUME_SCATTER; "
-            "SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.")
+            "SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone. "
+            "light_group, links: as in add_instances.")
         .def(
             "set_material",
             [](Scene& scene, std::uint32_t id, const Shader& material, const optional<MediumShare>& medium,
@@ -389,6 +417,18 @@ void register_scene(py::module_& module) {
             py::arg("radiance"))
         .def("set_world_shader", &Scene::set_world, py::arg("shader"),
              "A Shader whose emission is the light from each direction.")
+        .def_property_readonly("has_shadow_catchers", &Scene::has_shadow_catchers)
+        .def(
+            "set_world_rules",
+            [](Scene& scene, const RayNames& hidden_from, std::uint32_t max_bounces) {
+                scene.set_world_rules(rules_of(hidden_from, max_bounces));
+            },
+            py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u, "As of lights.")
+        .def("set_world_light_group", &Scene::set_world_light_group, py::arg("light_group"))
+        .def("set_aov", &Scene::set_aov, py::arg("material"), py::arg("aov"), py::arg("value_material"),
+             "An AOV shows what another material would emit where a camera sees this one.")
+        .def("set_world_aov", &Scene::set_world_aov, py::arg("aov"), py::arg("value"),
+             "The same of a Shader in the world's place.")
         .def(
             "set_world_medium",
             [](Scene& scene, const optional<MediumShare>& medium) { scene.set_world_medium(medium.value_or(nullptr)); },

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/integrators/analytic.h"
+#include "core/integrators/catcher_light.h"
 #include "core/integrators/monte_carlo.h"
 #include "core/integrators/seen_surfaces.h"
 
@@ -79,7 +80,8 @@ Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
       film_(scene_->camera().window.width(), scene_->camera().window.height(),
             {.own_sums = settings.denoising_passes,
              .surface_passes = settings.surface_passes,
-             .mattes = settings.mattes}),
+             .mattes = settings.mattes,
+             .named_passes = settings.named_passes()}),
       total_pixel_samples_(squares_.size() * std::uint64_t{settings.samples}) {
     if (film_.width() < 1) throw std::invalid_argument("the scene has no camera: call set_camera");
 }
@@ -118,9 +120,9 @@ bool Session::wait(double seconds) {
 }
 
 std::size_t Session::bytes_per_pixel(bool adaptive, const FilmParts& parts) {
-    const std::size_t film = sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) +
-                             (parts.surface_passes ? sizeof(SurfacePixel) : 0) +
-                             (parts.mattes ? sizeof(Mattes) + mattes_of_pixel * sizeof(Matte) : 0);
+    const std::size_t film =
+        sizeof(Pixel) + (parts.own_sums ? sizeof(OwnSum) : 0) + (parts.surface_passes ? sizeof(SurfacePixel) : 0) +
+        (parts.mattes ? sizeof(Mattes) + mattes_of_pixel * sizeof(Matte) : 0) + parts.named_passes * sizeof(Rgb);
     if (!adaptive) return film;
     constexpr std::size_t numbers_of_counts = 16;  // while they are made
     return 2 * (film + sizeof(Pilot)) + numbers_of_counts * sizeof(float);
@@ -153,6 +155,10 @@ void Session::run() {
         std::chrono::duration_cast<clock::duration>(std::chrono::duration<double>(settings_.time_limit_s));
     deadline_ = settings_.time_limit_s > 0.0f ? start_time_ + limit : clock::time_point::max();
     scene_->commit();
+    if (settings_.shadow_catchers) {
+        catchers_ = scene_->only_shadow_catchers();
+        catchers_->commit();
+    }
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
     if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
@@ -172,7 +178,8 @@ void Session::render_adaptively() {
     Film other_film(film_.width(), film_.height(),
                     {.own_sums = film_.keeps_own_sums(),
                      .surface_passes = film_.keeps_surface_passes(),
-                     .mattes = film_.keeps_mattes()});
+                     .mattes = film_.keeps_mattes(),
+                     .named_passes = film_.named_passes()});
     std::array<std::vector<Pilot>, 2> pilot;
     // Monte Carlo's samples know nothing of those that decide on them; the analytic integrator's complete each other.
     const auto round_of = [&](std::uint32_t number, Film& film) {
@@ -290,6 +297,9 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     if (settings_.surface_passes) round.film.load_surfaces(reached, surfaces);
     std::vector<Mattes> mattes;
     if (settings_.mattes) round.film.load_mattes(reached, mattes);
+    std::vector<Rgb> named, named_of_row;
+    const std::size_t named_passes = round.film.named_passes();
+    round.film.load_named(reached, named);
     std::vector<SurfacePasses> passes;
     std::vector<SeenMatte> seen_mattes;
     const PixelGrid own_grid{tile.x1 - tile.x0, tile.y1 - tile.y0};
@@ -297,7 +307,7 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     std::size_t samples_added = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
         if (should_stop()) return;  // a tile is all or nothing: every square of it has all of a pass or none
-        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes, seen_mattes);
+        const std::vector<Sample> row = sample_row(round, pass, tile.x0, tile.x1, y, passes, seen_mattes, named_of_row);
         if (row.empty()) continue;
         samples_added += row.size();
         std::size_t first = 0;
@@ -316,6 +326,8 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
             };
             const std::span<const SeenMatte> shown(from(first), from(first + count));
             const std::size_t first_ray = first;
+            const std::span<const Rgb> named_of_samples =
+                std::span(named_of_row).subspan(first * named_passes, count * named_passes);
             const auto variance = analytic ? radiance_variance(samples) : std::nullopt;
             first += count;
             const float scale = round.counts.empty() ? 1.0f : 1.0f / std::max(round.counts[square], 1u);
@@ -331,6 +343,9 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
                     pixels[at].samples.add(samples, *weights, variance, weight_in(u, v));
                     if (!surfaces.empty()) surfaces[at].add(told, *weights, weight_in(u, v));
                     if (!mattes.empty()) mattes[at].add(shown, first_ray, *weights, weight_in(u, v));
+                    if (named_passes > 0)
+                        add_named(named_of_samples, *weights, weight_in(u, v),
+                                  std::span(named).subspan(at * named_passes, named_passes));
                 }
             }
         }
@@ -338,6 +353,7 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     round.film.store(reached, pixels);
     if (!surfaces.empty()) round.film.store_surfaces(reached, surfaces);
     if (!mattes.empty()) round.film.store_mattes(reached, mattes);
+    round.film.store_named(reached, named);
     for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, film_.height()) && !own.empty(); ++y) {
         const int x0 = std::max(tile.x0, 0), x1 = std::min(tile.x1, film_.width());
         round.film.add_own(x0, y,
@@ -383,7 +399,8 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
 }
 
 std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
-                                        std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes) {
+                                        std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes,
+                                        std::vector<Rgb>& named) {
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     const bool is_analytic = settings_.integrator == Integrator::analytic, has_lens = camera.lens.radius_m > 0.0f;
@@ -415,12 +432,15 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     std::vector<Sample> samples(rays.size());
     passes.assign(settings_.surface_passes ? rays.size() : 0, {});
     mattes.clear();
+    named.assign(settings_.named_passes() * rays.size(), Rgb(0.0f));
     if (rays.empty()) return samples;
-    if (!passes.empty() || settings_.mattes) see_surfaces(*scene_, settings_, rays, passes, mattes);
+    if (!passes.empty() || settings_.mattes || settings_.aovs > 0)
+        see_surfaces(*scene_, settings_, rays, samplers, passes, mattes, named);
     if (is_analytic) {
         shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
     } else {
-        trace_paths(*scene_, settings_, rays, samplers, samples, passes);
+        trace_paths(*scene_, settings_, rays, samplers, samples, passes, named);
+        if (catchers_) tell_catchers(*scene_, *catchers_, settings_, rays, samplers, samples, named);
     }
     const std::size_t first_square = squares_.index(x0 + reach, y + reach);
     std::size_t at = 0;
@@ -432,6 +452,8 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
                 report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
                 samples[at] = {.alpha = 0.0f};
                 if (!passes.empty()) passes[at] = {};
+                const std::size_t named_passes = named.size() / samples.size();
+                std::fill_n(named.begin() + static_cast<std::ptrdiff_t>(at * named_passes), named_passes, Rgb(0.0f));
             }
             if (!round.pilot.empty()) round.pilot[square].add(mean_component(samples[at].radiance));
         }

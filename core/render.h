@@ -69,9 +69,10 @@ class Session {
     bool render_round(const Round& round, std::uint32_t samples);
     void render_tile(const Round& round, const SamplePass& pass, const Tile& tile);
     /// A pass's samples of the squares of row y from x0 to x1, one after the other.
-    /// passes, mattes: of these, where they are asked for.
+    /// passes, mattes, named: of these, where they are asked for.
     std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
-                                   std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes);
+                                   std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes,
+                                   std::vector<Rgb>& named);
     /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
     /// rising.
     void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
@@ -85,6 +86,7 @@ class Session {
     bool should_stop() const;
 
     std::shared_ptr<Scene> scene_;
+    std::shared_ptr<Scene> catchers_;  ///< alone; none where these are not told of
     RenderSettings settings_;
     AnalyticLights lights_;
     PixelFilter filter_;

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..report import RenderError, Reporter, naming
 from .census import report_left_out
 from .context import Context
+from .light_groups import light_group
 from .nodes import Owner, active_tree
 from .program import Program
 from .shader import light_emission
@@ -26,9 +27,16 @@ _AREA_EXITANCE_PER_RADIANCE = math.pi if bpy.app.version >= (4, 0) else 4.0
 
 
 def export_light(
-    context: Context, light_object: bpy.types.Object, object_to_world: NDArray[np.float64], visible: Visible
+    context: Context,
+    light_object: bpy.types.Object,
+    object_to_world: NDArray[np.float64],
+    visible: Visible,
+    links: tuple[int, int],
 ) -> None:
-    """Add one light object. object_to_world: (4, 4). Raises RenderError naming the object."""
+    """Add one light object. Raises RenderError naming it.
+
+    object_to_world: (4, 4). links: masks of LightLinks.
+    """
     data: Any = light_object.data
     if not np.isfinite(object_to_world).all():
         raise RenderError(
@@ -45,7 +53,12 @@ def export_light(
         light = _LIGHTS[data.type](context, data, _strength(context, data, owner), object_to_world)
         if light is not None:
             context.scene.add_light(
-                light_object.name, light, hidden_from=_hidden_from(visible, data), max_bounces=_max_bounces(data)
+                light_object.name,
+                light,
+                hidden_from=_hidden_from(visible, data),
+                max_bounces=_max_bounces(data),
+                light_group=light_group(context.depsgraph.view_layer, light_object),
+                links=links,
             )
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..report import naming
+from .aovs import aov_shaders
 from .attributes import is_of_mesh
 from .baked import Interior, is_placed, reads_place
 from .context import Context
@@ -64,6 +65,7 @@ class _Look:
     shader: Any  # the core's
     is_there: bool
     attributes: frozenset[str]
+    aovs: tuple[tuple[int, Any], ...]  # each by its place and the core's shader that emits its value
 
 
 class MaterialTable:
@@ -120,14 +122,19 @@ class MaterialTable:
             medium = None if volume is None else self._medium(material, volume, interior)
             name = material.name if material else "none"
             with naming(_where(material, user), "give its colours and numbers finite values"):
-                self._materials[key] = self._context.scene.add_material(
+                self._materials[key] = id_ = self._context.scene.add_material(
                     f"{name} in {user.name}" if varies else name,
                     look.shader,
                     medium=medium,
                     has_surface=look.is_there,
                     pass_index=material.pass_index if material else 0,
+                    filters_shadows=_filters_shadows(material),
                     matte=self._context.mattes.id_of("MATERIAL", material.name if material else "default_surface"),
                 )
+                for aov, shader in look.aovs:
+                    self._context.scene.set_aov(
+                        id_, aov, self._context.scene.add_material(f"AOV {aov} of {name}", shader)
+                    )
         return self._materials[key]
 
     def _look(self, material: bpy.types.Material | None, user: bpy.types.Object) -> _Look:
@@ -141,8 +148,15 @@ class MaterialTable:
             self._warn_of_analytic(surface, owner)
             with naming(owner.name, "give its colours and numbers finite values"):
                 shader = surface.core_shader(self._context.core)
-            self._looks[key] = _Look(shader, is_there, frozenset(owner.program.attributes))
+                values = self._owner(material, user)  # with a program of its own: few rays ask it
+                aovs = self._aovs(material, values)
+            attributes = frozenset(owner.program.attributes | values.program.attributes)
+            self._looks[key] = _Look(shader, is_there, attributes, aovs)
         return self._looks[key]
+
+    def _aovs(self, material: bpy.types.Material | None, owner: Owner) -> tuple[tuple[int, Any], ...]:
+        tree = None if material is None else active_tree(material)
+        return () if tree is None else tuple(aov_shaders(tree, owner, self._context.depsgraph.view_layer))
 
     def _volume(self, material: bpy.types.Material | None, interior: Interior) -> Volume | None:
         """What a material is full of; None: nothing is linked there."""
@@ -196,6 +210,14 @@ def _volume_input(material: bpy.types.Material) -> Any:
 def _has_surface(material: bpy.types.Material) -> bool:
     """Of one whose nodes have an output."""
     return output_socket(active_tree(material), "Surface").socket.is_linked
+
+
+def _filters_shadows(material: bpy.types.Material | None) -> bool:
+    """Blender has Cycles' own switch from 4.2 on."""
+    for settings in (material, getattr(material, "cycles", None)):
+        if hasattr(settings, "use_transparent_shadow"):
+            return bool(settings.use_transparent_shadow)
+    return True
 
 
 def _address(material: bpy.types.Material | None) -> int:

@@ -21,6 +21,8 @@ from .grids import NO_GRIDS, Grids
 from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
+from .light_groups import NO_GROUP, light_group
+from .light_links import NO_LINKS, LightLinks
 from .material import MaterialTable, Slots
 from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
@@ -43,6 +45,10 @@ class _Group:
     mesh: int
     materials: tuple[int, ...]
     visible: Visible
+    light_group: int  # of what shines of it
+    links: tuple[int, int]  # of that light: masks of sets
+    link_sets: tuple[int, int]  # its own
+    is_shadow_catcher: bool
     matte: tuple[float, float]  # ids of the object and its asset
     color: tuple[float, float, float, float]
     pass_index: float
@@ -70,6 +76,10 @@ def _group_of(
         mesh=mesh,
         materials=materials,
         visible=Visible(),
+        light_group=NO_GROUP,
+        links=NO_LINKS,
+        link_sets=(0, 0),
+        is_shadow_catcher=blender_object.is_shadow_catcher,
         matte=matte,
         color=tuple(blender_object.color),
         pass_index=blender_object.pass_index,
@@ -133,6 +143,7 @@ class _Exporter:
         self._context = context
         self._cache = meshes
         self._check_cancel = check_cancel
+        self._links = LightLinks.read(context.depsgraph, context.reporter)
         self._materials = MaterialTable(context, world_shines)
         # By the evaluated data's address, what is read, and the slots whose faces rays pass.
         self._meshes: dict[tuple[int, frozenset[str], frozenset[int]], list[tuple[int, bool]]] = {}
@@ -156,15 +167,17 @@ class _Exporter:
                 continue
             if blender_object.type == "LIGHT":
                 place = told.object_to_world[index].astype(np.float64)
-                export_light(self._context, blender_object, place, self._visible(blender_object, instancer))
+                seen, links = self._visible(blender_object, instancer), self._links.masks(blender_object)
+                export_light(self._context, blender_object, place, seen, links)
+                self._warn_of_links(blender_object, links)
             elif layer.use_solid and blender_object.type == "MESH":
                 self._place(self._make_mesh_groups, blender_object, instance, told, index)
             elif layer.use_strand and blender_object.type == "CURVES":
                 self._place(self._curve_groups, blender_object, instance, told, index)
             elif layer.use_volumes and blender_object.type == "VOLUME":
-                seen = self._visible(blender_object, instancer)
+                of_object = self._of_object(blender_object, instancer)
                 for of_any in self._volume_groups(blender_object, told, index):
-                    self._instances[replace(of_any, visible=seen)].append(index)
+                    self._instances[replace(of_any, **of_object)].append(index)
             elif layer.use_solid and blender_object.type in _UNSUPPORTED:
                 kind = blender_object.bl_rna.properties["type"].enum_items[blender_object.type].name
                 self._warn(blender_object, f"{kind} objects are not supported and left out")
@@ -174,6 +187,25 @@ class _Exporter:
                     f"object '{group.name}': its volume depends on where it is, its instances are filled as the first"
                 )
             self._add_instances(group, indices, told)
+
+    def _of_object(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> dict[str, Any]:
+        """What a _Group has of the object and its instancer, whatever its mesh."""
+        links = self._links.masks(blender_object)
+        self._warn_of_links(blender_object, links)
+        return {
+            "visible": self._visible(blender_object, instancer),
+            "light_group": light_group(self._context.depsgraph.view_layer, blender_object, instancer),
+            "links": links,
+            "link_sets": self._links.sets(instancer or blender_object),
+        }
+
+    def _warn_of_links(self, blender_object: bpy.types.Object, links: tuple[int, int]) -> None:
+        if links != NO_LINKS and self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
+            kind = "light" if blender_object.type == "LIGHT" else "object"
+            self._context.reporter.warn(
+                f"{kind} '{blender_object.name}': in the analytic integrator it lights everything, and everything "
+                "casts its shadows. Fix: use Monte Carlo"
+            )
 
     def _visible(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> Visible:
         key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
@@ -193,9 +225,9 @@ class _Exporter:
         groups = self._groups_of(make, blender_object, instance, told, index)
         if not groups:
             return
-        seen = self._visible(blender_object, instance.parent if instance.is_instance else None)
+        of_object = self._of_object(blender_object, instance.parent if instance.is_instance else None)
         for of_any in groups:
-            group = replace(of_any, visible=seen)
+            group = replace(of_any, **of_object)
             self._instances[group].append(index)
             if "particle:" in group.reads:
                 self._particles[group].append(particle_index(instance))
@@ -366,6 +398,10 @@ class _Exporter:
             group.materials,
             hidden_from=list(group.visible.hidden_from),
             holdout=group.visible.is_holdout,
+            light_group=group.light_group,
+            links=group.links,
+            link_sets=group.link_sets,
+            shadow_catcher=group.is_shadow_catcher,
             matte=group.matte,
             color=group.color,
             pass_index=group.pass_index,

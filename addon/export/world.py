@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 
 from ..report import naming
+from .aovs import aov_shaders
 from .census import report_left_out
 from .context import Context
+from .light_groups import NO_GROUP, light_group
 from .media import core_medium, report_analytic
 from .nodes import Owner, active_tree
 from .nodes.ray import CAMERA_RAY
@@ -33,10 +37,15 @@ def export_world(context: Context) -> bool:
     else:
         radiance = light_emission(tree, Owner(owner, context.reporter, program, world))
     shines = not radiance.is_always(0)
+    group = light_group(view_layer, world)
+    if group != NO_GROUP:
+        context.scene.set_world_light_group(group)
     if tree is not None:
-        _add_suns(context, tree, owner)
+        _add_suns(context, tree, owner, group)
+        _set_aovs(context, tree, owner, world)
         _set_medium(context, tree, owner, world, shines)
     varies = not radiance.is_constant
+    context.scene.set_world_rules(**_rules(context, world, owner))
     visibility = getattr(world, "cycles_visibility", None)
     if visibility is not None and not visibility.camera:
         radiance = radiance * (1.0 - program.op("ray_is", settings=[CAMERA_RAY]))
@@ -52,7 +61,29 @@ def export_world(context: Context) -> bool:
     return shines
 
 
-def _add_suns(context: Context, tree: bpy.types.NodeTree, owner: str) -> None:
+_RAYS = {"diffuse": "DIFFUSE", "glossy": "GLOSSY", "transmission": "TRANSMISSION", "scatter": "VOLUME_SCATTER"}
+
+
+def _rules(context: Context, world: bpy.types.World, owner: str) -> dict[str, Any]:
+    """What the world lights, as lamps have it; which a camera sees is its shader's."""
+    visibility, cycles = getattr(world, "cycles_visibility", None), getattr(world, "cycles", None)
+    if visibility is None or cycles is None:
+        return {}
+    hidden = [ray for switch, ray in _RAYS.items() if not getattr(visibility, switch)]
+    rules: dict[str, Any] = {"hidden_from": hidden, "max_bounces": cycles.max_bounces}
+    if context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and (hidden or cycles.max_bounces == 0):
+        context.reporter.warn(f"{owner}: in the analytic integrator it lights everything. Fix: use Monte Carlo")
+    return rules
+
+
+def _set_aovs(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World) -> None:
+    owner = Owner(name, context.reporter, Program(context.core, context.scene, context.images), world)
+    with naming(name, "give its AOVs finite values"):
+        for aov, shader in aov_shaders(tree, owner, context.depsgraph.view_layer):
+            context.scene.set_world_aov(aov, shader)
+
+
+def _add_suns(context: Context, tree: bpy.types.NodeTree, owner: str, group: int) -> None:
     """Lamps for the suns of skies: a map of the world would lose them between its places."""
     for node in tree.nodes:
         sun = sun_light(context.core, node) if node.type == "TEX_SKY" and not node.mute else None
@@ -65,7 +96,7 @@ def _add_suns(context: Context, tree: bpy.types.NodeTree, owner: str) -> None:
             light = context.core.SunLight(
                 direction=direction, half_angle_rad=half_angle_rad, irradiance=irradiance.tolist()
             )
-            context.scene.add_light(owner, light)
+            context.scene.add_light(owner, light, light_group=group)
 
 
 def _set_medium(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World, shines: bool) -> None:

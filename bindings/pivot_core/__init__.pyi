@@ -611,9 +611,18 @@ class Scene:
         attributes: collections.abc.Mapping[
             str, typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"]
         ] = {},
+        light_group: typing.SupportsInt | typing.SupportsIndex = -1,
+        links: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(2)"] = [
+            18446744073709551615,
+            18446744073709551615,
+        ],
+        link_sets: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(2)"
+        ] = [0, 0],
+        shadow_catcher: bool = False,
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). light_group: of their emission, which passes show apart. links: of their light, masks of the sets of receivers that it lights and of blockers whose shadows it casts; link_sets: their own of both, by number. shadow_catcher: stand-ins for real things. Returns the first of N consecutive ids.
         """
     def add_light(
         self,
@@ -621,9 +630,14 @@ class Scene:
         light: SphereLight | SpotLight | SunLight | AreaLight,
         hidden_from: collections.abc.Sequence[str] = [],
         max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+        light_group: typing.SupportsInt | typing.SupportsIndex = -1,
+        links: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(2)"] = [
+            18446744073709551615,
+            18446744073709551615,
+        ],
     ) -> int:
         """
-        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone.
+        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone. light_group, links: as in add_instances.
         """
     def add_material(
         self,
@@ -633,9 +647,10 @@ class Scene:
         has_surface: bool = True,
         pass_index: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         matte: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        filters_shadows: bool = True,
     ) -> int:
         """
-        A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there.
+        A Material or a Shader; medium: a Medium within what it surrounds; without has_surface rays pass, and nothing but the medium is there; without filters_shadows it hides light, whatever is seen through it.
         """
     def add_mesh(
         self,
@@ -760,6 +775,15 @@ class Scene:
         Where rays (n, 3) hit, the shares of a light, or with None of the world, that the bent cone leaves to the
         diffuse and the glossy lobe: (n,) each. Rays come from the viewer; the light need not be in the scene.
         """
+    def set_aov(
+        self,
+        material: typing.SupportsInt | typing.SupportsIndex,
+        aov: typing.SupportsInt | typing.SupportsIndex,
+        value_material: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None:
+        """
+        An AOV shows what another material would emit where a camera sees this one.
+        """
     def set_camera(
         self,
         camera_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
@@ -843,14 +867,29 @@ class Scene:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
     ) -> None: ...
+    def set_world_aov(self, aov: typing.SupportsInt | typing.SupportsIndex, value: Shader) -> None:
+        """
+        The same of a Shader in the world's place.
+        """
+    def set_world_light_group(self, light_group: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def set_world_medium(self, medium: Medium | None) -> None:
         """
         A Medium that fills all space, or None.
+        """
+    def set_world_rules(
+        self,
+        hidden_from: collections.abc.Sequence[str] = [],
+        max_bounces: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> None:
+        """
+        As of lights.
         """
     def set_world_shader(self, shader: Shader) -> None:
         """
         A Shader whose emission is the light from each direction.
         """
+    @property
+    def has_shadow_catchers(self) -> bool: ...
 
 class RenderSettings:
     """
@@ -887,7 +926,17 @@ class RenderSettings:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [5.0, 25.0, 2.0],
         mattes: bool = False,
-    ) -> None: ...
+        light_groups: typing.SupportsInt | typing.SupportsIndex = 0,
+        aovs: typing.SupportsInt | typing.SupportsIndex = 0,
+        bounce_limits: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(4)"
+        ] = [4294967295, 4294967295, 4294967295, 4294967295],
+        shadow_catchers: bool = False,
+        occlusion_distance_m: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None:
+        """
+        bounce_limits: of diffuse, of glossy reflections, of those through surfaces and in media.
+        """
 
 class Session:
     """
@@ -895,7 +944,11 @@ class Session:
     """
     @staticmethod
     def bytes_per_pixel(
-        adaptive: bool, denoising_passes: bool = False, surface_passes: bool = False, mattes: bool = False
+        adaptive: bool,
+        denoising_passes: bool = False,
+        surface_passes: bool = False,
+        mattes: bool = False,
+        named_passes: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> int:
         """
         What a session allocates for each pixel of its window.
@@ -910,6 +963,14 @@ class Session:
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
         With mattes: as float32 (height, width, 4) two ids and the share of the pixel that each has, from this rank on, the largest share first.
+        """
+    def read_named(self, which: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        As float32 (height, width, 3) the light of one of the light_groups, which the analytic integrator leaves black, or, counted after these, two of each of the aovs: what shaders give where a camera sees their surfaces, and, in red, the share of the pixel where they do.
+        """
+    def read_shadow_catchers(self, kind: str) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        With shadow_catchers. FACTOR: what others leave of light on these, (height, width, 3). NOTHING, ALPHA or WORLD: Combined with nothing in their place, with alpha where they lose light, or with the world behind them, darkened as much.
         """
     def start(self) -> None:
         """

@@ -118,6 +118,7 @@ constexpr Pass passes[] = {
     {"TransInd", 3, write_uncolored<&S::transmission_indirect, &S::transmission_color>, surface_passes},
     {"TransCol", 3, write_surfaces<&S::transmission_color>, surface_passes},
     {"Env", 3, write_surfaces<&S::environment>, surface_passes},
+    {"AO", 3, write_surfaces<&S::ambient_occlusion>, surface_passes},
     {"UV", 3, write_surfaces<&S::uv>, surface_passes},
     {"Mist", 1, write_mist, surface_passes},
     {"IndexOB", 1,
@@ -128,21 +129,24 @@ constexpr Pass passes[] = {
      surface_passes},
 };
 
-/// Copies a tile's pixels from or to a grid of all.
+/// Copies a tile's pixels from or to a grid of all, as many items of each.
 template <class Item>
-void load_tile(const PixelGrid& grid, const std::vector<Item>& all, const Tile& tile, std::vector<Item>& items) {
+void load_tile(const PixelGrid& grid, const std::vector<Item>& all, const Tile& tile, std::vector<Item>& items,
+               std::size_t of_each = 1) {
     items.clear();
     for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto first = all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y));
-        items.insert(items.end(), first, first + (tile.x1 - tile.x0));
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y) * of_each);
+        items.insert(items.end(), first, first + static_cast<std::ptrdiff_t>(of_each) * (tile.x1 - tile.x0));
     }
 }
 template <class Item>
-void store_tile(const PixelGrid& grid, std::vector<Item>& all, const Tile& tile, const std::vector<Item>& items) {
-    const auto width = static_cast<std::ptrdiff_t>(tile.x1 - tile.x0);
+void store_tile(const PixelGrid& grid, std::vector<Item>& all, const Tile& tile, const std::vector<Item>& items,
+                std::size_t of_each = 1) {
+    auto from = items.begin();
     for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto begin = items.begin() + (y - tile.y0) * width;
-        std::copy(begin, begin + width, all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y)));
+        const auto end = from + static_cast<std::ptrdiff_t>(of_each) * (tile.x1 - tile.x0);
+        std::copy(from, end, all.begin() + static_cast<std::ptrdiff_t>(grid.index(tile.x0, y) * of_each));
+        from = end;
     }
 }
 
@@ -181,6 +185,11 @@ void SurfacePixel::add(const SurfacePixel& other, float scale) {
     add_weighted<SurfacePasses>({&other.sum, 1}, {&once, 1}, scale, sum);
 }
 
+void add_named(std::span<const Rgb> samples, std::span<const float> weights, float scale, std::span<Rgb> sums) {
+    for (std::size_t i = 0; i * sums.size() < samples.size(); ++i)
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += scale * weights[i] * samples[i * sums.size() + k];
+}
+
 void OwnSum::add(std::span<const Sample> samples, float scale) {
     for (const Sample& sample : samples)
         add({sample.radiance, sample.indirect, sample.denoising_albedo, sample.denoising_normal, 1.0f}, scale);
@@ -208,7 +217,8 @@ Film::Film(int width, int height, const FilmParts& parts)
       pixels_(grid_.size()),
       own_sums_(parts.own_sums ? grid_.size() : 0),
       mattes_(parts.mattes ? grid_.size() : 0),
-      surfaces_(parts.surface_passes ? grid_.size() : 0) {}
+      surfaces_(parts.surface_passes ? grid_.size() : 0),
+      named_(parts.named_passes * grid_.size(), Rgb(0.0f)) {}
 
 void Film::load(const Tile& tile, std::vector<Pixel>& pixels) const { load_tile(grid_, pixels_, tile, pixels); }
 
@@ -233,6 +243,15 @@ void Film::store_mattes(const Tile& tile, const std::vector<Mattes>& pixels) {
     store_tile(grid_, mattes_, tile, pixels);
 }
 
+void Film::load_named(const Tile& tile, std::vector<Rgb>& sums) const {
+    load_tile(grid_, named_, tile, sums, named_passes());
+}
+
+void Film::store_named(const Tile& tile, const std::vector<Rgb>& sums) {
+    const std::shared_lock lock(mutex_);
+    store_tile(grid_, named_, tile, sums, named_passes());
+}
+
 void Film::add_own(int x, int y, std::span<const OwnSum> sums) {
     const std::shared_lock lock(mutex_);
     OwnSum* own = &own_sums_[grid_.index(x, y)];
@@ -255,6 +274,9 @@ void Film::merge(const Film& other, std::span<const float> own_weights, std::spa
             merged.add(other.surfaces_[i], other_weights[i] * other.pixels_[i].samples.per_weight());
             surfaces_[i] = merged;
         }
+        for (std::size_t k = i * named_passes(); k < (i + 1) * named_passes(); ++k)
+            named_[k] = own_weights[i] * pixels_[i].samples.per_weight() * named_[k] +
+                        other_weights[i] * other.pixels_[i].samples.per_weight() * other.named_[k];
         WeightedSum merged;
         for (const auto& [samples, weight] :
              {std::pair(pixels_[i].samples, own_weights[i]), std::pair(other.pixels_[i].samples, other_weights[i])})
@@ -288,6 +310,7 @@ void Film::add(const Film& other) {
     for (std::size_t i = 0; i < own_sums_.size(); ++i) own_sums_[i].add(other.own_sums_[i], 1.0f);
     for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i].add(other.surfaces_[i], 1.0f);
     for (std::size_t i = 0; i < mattes_.size(); ++i) mattes_[i].add(other.mattes_[i], 1.0f);
+    for (std::size_t i = 0; i < named_.size(); ++i) named_[i] += other.named_[i];
 }
 
 std::vector<float> Film::read(const Pass& pass) const {
@@ -313,6 +336,17 @@ std::vector<float> Film::read_mattes(MatteKind kind, std::size_t rank) const {
     const std::unique_lock lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i)
         mattes_[i].write(kind, rank, pixels_[i].samples.per_weight(), &values[4 * i]);
+    return values;
+}
+
+std::vector<float> Film::read_named(std::size_t which) const {
+    if (which >= named_passes())
+        throw std::invalid_argument("there is no named pass " + std::to_string(which) +
+                                    ": render with as many light_groups and aovs");
+    std::vector<float> values(3 * pixels_.size());
+    const std::unique_lock lock(mutex_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        put(named_[i * named_passes() + which] * pixels_[i].samples.per_weight(), &values[3 * i]);
     return values;
 }
 

@@ -2,6 +2,7 @@
 // grows; writers add whole tiles, readers see no half of one.
 #pragma once
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
@@ -40,7 +41,8 @@ struct SurfacePasses {
     Rgb diffuse_direct{0.0f}, diffuse_indirect{0.0f};
     Rgb glossy_direct{0.0f}, glossy_indirect{0.0f};
     Rgb transmission_direct{0.0f}, transmission_indirect{0.0f};
-    Rgb environment{0.0f};  ///< the world as it is seen
+    Rgb environment{0.0f};        ///< the world as it is seen
+    Rgb ambient_occlusion{0.0f};  ///< what a white sky within a distance would bring to white surfaces
     // What the surfaces send to the camera where all light around is 1.
     Rgb diffuse_color{0.0f}, glossy_color{0.0f}, transmission_color{0.0f};
     Vec3f uv{0.0f};         ///< the third is 1 on surfaces
@@ -108,7 +110,11 @@ struct FilmParts {
     bool own_sums = false;  ///< for a denoiser
     bool surface_passes = false;
     bool mattes = false;
+    std::size_t named_passes = 0;  ///< those that an artist names, each a colour
 };
+
+/// Adds samples of one square by their weights, all of it times `scale`: as many colours of each as there are sums.
+void add_named(std::span<const Rgb> samples, std::span<const float> weights, float scale, std::span<Rgb> sums);
 
 /// A grid of pixels, row by row.
 struct PixelGrid {
@@ -160,6 +166,11 @@ class Film {
     void load_mattes(const Tile& tile, std::vector<Mattes>& pixels) const;
     void store_mattes(const Tile& tile, const std::vector<Mattes>& pixels);
 
+    std::size_t named_passes() const { return named_.size() / std::max(grid_.size(), std::size_t{1}); }
+    /// As load() and store() of named passes: of each pixel all.
+    void load_named(const Tile& tile, std::vector<Rgb>& sums) const;
+    void store_named(const Tile& tile, const std::vector<Rgb>& sums);
+
     /// Makes each pixel a mean of its own and the other film's, which weigh as much as is told, both row by row.
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
@@ -173,6 +184,8 @@ class Film {
     std::vector<float> read(const Pass& pass) const;
     /// Two ranks of ids from this one on, as height x width x (id, weight, id, weight). Throws likewise.
     std::vector<float> read_mattes(MatteKind kind, std::size_t rank) const;
+    /// One of the named passes, as height x width x 3. Throws likewise.
+    std::vector<float> read_named(std::size_t which) const;
 
    private:
     PixelGrid grid_;
@@ -180,6 +193,7 @@ class Film {
     std::vector<OwnSum> own_sums_;        ///< of each pixel, or empty
     std::vector<Mattes> mattes_;          ///< likewise
     std::vector<SurfacePixel> surfaces_;  ///< likewise
+    std::vector<Rgb> named_;              ///< sums of named passes, of each pixel all
     mutable std::shared_mutex mutex_;     ///< shared by writers, whose tiles are disjoint; owned by a reader
 };
 

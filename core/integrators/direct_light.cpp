@@ -176,39 +176,69 @@ LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, co
     const Batch weight =
         strategy == LightSampling::light ? Batch(1.0f) : balance(pdf, pdf_omega(vertices.surface, wi_local));
     // One bounce on, as a BSDF sample would meet it.
-    const Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
+    Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
+    if (scene.has_world_rules()) {
+        const Lanes x = store(wi_local.x), y = store(wi_local.y), z = store(wi_local.z);
+        light = light * gather_vector([&](std::size_t i) {
+                    if (i >= vertices.count() || plan.bounce > scene.world_rules().max_bounces) return Rgb(0.0f);
+                    return lit_share(scene.world_rules(), vertices.lane(i).surface, {x[i], y[i], z[i]});
+                });
+    }
     return {.radiance = select(vertices.is_open_to(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
                                Vec3b(Batch(0.0f))),
             .wi = wi,
             .reach_m = std::numeric_limits<Batch>::infinity()};
 }
 
-/// Calls visit(LightSampleOf<Batch>, shadow rays, BatchMask) with each round of the vertices' light samples; the mask:
-/// whose light comes through what is in its way.
+/// Of a batch of shadow rays those to lights that have blockers of their own, and what is left along them.
+struct PastOthers {
+    BatchMask is_asked = BatchMask(false);
+    Vec3b left = Vec3b(Batch(0.0f));
+};
+PastOthers light_past_others(const Scene& scene, const RayOf<Batch>& rays, const LightPicks& picks,
+                             const ShadowPath& path, ProgramMemory& memory) {
+    const std::array<Ray, batch_size> each = unpack<RayOf>(rays);
+    Lanes is_asked{};
+    const Vec3b left = gather_vector([&](std::size_t i) {
+        if (!(each[i].far_m > 0.0f)) return Rgb(0.0f);
+        const LightLinks& links = scene.rules_of(picks.light[i]).links;
+        if (!has_blockers_of_its_own(links)) return Rgb(0.0f);
+        is_asked[i] = 1.0f;
+        return pivot::light_past_others(scene, each[i], links, path, i, memory);
+    });
+    return {load(is_asked) > Batch(0.5f), left};
+}
+
+/// Calls visit(LightSampleOf<Batch>, shadow rays, BatchMask, LightPicks) with each round of the vertices' light
+/// samples; the mask: whose light comes through what is in its way; the picks: null, the world's.
 template <class Visit>
 void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
-                     const VertexLights& lights, SharedLamps& shared_lamps, ProgramMemory& memory, const Visit& visit) {
-    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples, const BatchMask& is_open) {
+                     const WordBatch& instances, const VertexLights& lights, SharedLamps& shared_lamps,
+                     ProgramMemory& memory, const Visit& visit) {
+    const auto visit_with_rays = [&](const LightSampleOf<Batch>& samples, const BatchMask& is_open,
+                                     const LightPicks* of_lights) {
         const BatchMask adds = max_component(abs(samples.radiance)) > Batch(0.0f) && vertices.is_vertex();
         visit(samples,
               RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
                            .direction = samples.wi,
                            .near_m = Batch(0.0f),
-                           .far_m = select(adds, samples.reach_m, Batch(0.0f)),
-                           .time = vertices.point.time},
-              is_open);
+                        .far_m = select(adds, samples.reach_m, Batch(0.0f)),
+                        .time = vertices.point.time},
+              is_open, of_lights);
     };
     const BatchMask none(false);
     if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none);
+        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none, nullptr);
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;
         LightSampleOf<Batch> samples = sample_lights(scene, strategy, plan.bounce, vertices, picks[k],
                                                      plan.dimensions.light_place(place), shared_lamps);
         if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
-        visit_with_rays(samples,
-                        scene.has_light_rules() ? obey_rules(scene, plan.bounce, vertices, picks[k], samples) : none);
+        visit_with_rays(
+            samples,
+            scene.has_light_rules() ? obey_rules(scene, plan.bounce, vertices, instances, picks[k], samples) : none,
+            &picks[k]);
     }
 }
 
@@ -216,36 +246,50 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
 
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                    const VertexLights& lights, SharedLamps& shared_lamps, const ShadowPath& shadow_path,
-                   ProgramMemory& memory, LightSharesOf<Batch>* shares) {
+                   ProgramMemory& memory, LightSharesOf<Batch>* shares, GroupLight* groups) {
     const Batch zero(0.0f);
     const Vec3b black(zero);
     Vec3b radiance(black);
-    const auto add = [&](const Vec3b& light, const Vec3b& wi) {
+    const auto add = [&](const Vec3b& light, const Vec3b& wi, const LightPicks* picks) {
         radiance += light;
+        if (groups)
+            groups->note(light, [&](std::size_t lane) {
+                return picks ? scene.light_group_of(picks->light[lane]) : scene.world_light_group();
+            });
         if (!shares) return;
         const auto of_sample = light_shares(vertices.surface, vertices.point.frame.to_local(wi));
         shares->diffuse += light * of_sample.diffuse;
         shares->glossy += light * of_sample.glossy;
     };
-    for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& all_rays, const BatchMask& is_open) {
-                        RayOf<Batch> rays = all_rays;
-                        if (any(is_open)) {
-                            add(select(is_open && rays.far_m > zero, samples.radiance, black), samples.wi);
-                            rays.far_m = select(is_open, zero, rays.far_m);
-                        }
-                        const Batch visible = scene.visibility(rays);
-                        // Where no ray is, there is nothing to add.
-                        Vec3b light = select(rays.far_m > zero, samples.radiance * visible, black);
-                        RayOf<Batch> seen = rays;
-                        seen.far_m = select(visible > zero, rays.far_m, zero);
-                        if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);
-                        if (!scene.media().is_empty()) {
-                            light = light * transmittance(scene.media(), seen,
-                                                          stream_seed(vertices.sampler, plan.dimensions.base));
-                        }
-                        add(light, samples.wi);
-                    });
+    for_each_sample(
+        scene, strategy, plan, vertices, shadow_path.instance, lights, shared_lamps, memory,
+        [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& all_rays, const BatchMask& is_open,
+            const LightPicks* picks) {
+            RayOf<Batch> rays = all_rays;
+            if (any(is_open)) {
+                add(select(is_open && rays.far_m > zero, samples.radiance, black), samples.wi, picks);
+                rays.far_m = select(is_open, zero, rays.far_m);
+            }
+            PastOthers past;
+            if (picks && scene.has_blockers()) {
+                past = light_past_others(scene, rays, *picks, shadow_path, memory);
+                rays.far_m = select(past.is_asked, zero, rays.far_m);
+            }
+            const Batch visible = scene.visibility(rays);
+            // Where no ray is, there is nothing to add.
+            Vec3b light = select(rays.far_m > zero, samples.radiance * visible, black);
+            RayOf<Batch> seen = rays;
+            seen.far_m = select(visible > zero, rays.far_m, zero);
+            if (scene.has_transparency()) light = light * light_through(scene, seen, shadow_path, memory);
+            if (any(past.is_asked)) {
+                light = select(past.is_asked, samples.radiance * past.left, light);
+                seen.far_m = select(past.is_asked && max_component(past.left) > zero, all_rays.far_m, seen.far_m);
+            }
+            if (!scene.media().is_empty()) {
+                light = light * transmittance(scene.media(), seen, stream_seed(vertices.sampler, plan.dimensions.base));
+            }
+            add(light, samples.wi, picks);
+        });
     if (!shares) return radiance;
     const auto share_of = [&](const Vec3b& part) {
         const auto of = [&](const Batch& x, const Batch& all) {
@@ -261,13 +305,14 @@ std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling stra
                                           const VertexBatch& vertices, const VertexLights& lights,
                                           SharedLamps& shared_lamps, ProgramMemory& memory) {
     std::vector<LightSample> result;
-    for_each_sample(scene, strategy, plan, vertices, lights, shared_lamps, memory,
-                    [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays, const BatchMask&) {
-                        const Lanes far_m = store(rays.far_m);
-                        const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
-                        for (std::size_t i = 0; i < batch_size; ++i)
-                            if (far_m[i] > 0.0f) result.push_back(each[i]);
-                    });
+    for_each_sample(
+        scene, strategy, plan, vertices, WordBatch(no_instance), lights, shared_lamps, memory,
+        [&](const LightSampleOf<Batch>& samples, const RayOf<Batch>& rays, const BatchMask&, const LightPicks*) {
+            const Lanes far_m = store(rays.far_m);
+            const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
+            for (std::size_t i = 0; i < batch_size; ++i)
+                if (far_m[i] > 0.0f) result.push_back(each[i]);
+        });
     return result;
 }
 

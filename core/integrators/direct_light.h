@@ -3,6 +3,7 @@
 
 #include "core/bsdf/surface_parts.h"
 #include "core/integrators/arrival.h"
+#include "core/integrators/group_light.h"
 #include "core/integrators/light_lanes.h"
 #include "core/integrators/passage.h"
 #include "core/integrators/settings.h"
@@ -35,12 +36,12 @@ class SharedLamps {
 };
 
 /// What the vertices reflect of the lights that they see, by light samples; shared: what is left to BSDF samples.
-/// shares: by which reflection; may be null.
+/// shares: by which reflection; groups: to be told of which light group; both may be null.
 Vec3b direct_light(const Scene& scene, LightSampling strategy, const BouncePlan& plan, const VertexBatch& vertices,
                    const VertexLights& lights, SharedLamps& shared, const ShadowPath& shadow_path,
-                   ProgramMemory& memory, LightSharesOf<Batch>* shares = nullptr);
+                   ProgramMemory& memory, LightSharesOf<Batch>* shares = nullptr, GroupLight* groups = nullptr);
 
-/// The light samples that direct_light traces, but those that add nothing.
+/// The light samples that direct_light traces on surfaces that every light is for, but those that add nothing.
 std::vector<LightSample> light_samples_of(const Scene& scene, LightSampling strategy, const BouncePlan& plan,
                                           const VertexBatch& vertices, const VertexLights& lights, SharedLamps& shared,
                                           ProgramMemory& memory);

@@ -17,7 +17,8 @@ struct FogVertex {
     Rgb throughput;
     float footprint_m, spread;
     float time;
-    std::uint32_t sample;
+    std::uint32_t sample, bounces;
+    LinkSets link_sets;
 };
 
 /// The sampler's dimensions that media take of a bounce, past those of surfaces. part: of a ray that passes surfaces.
@@ -78,7 +79,8 @@ class Fog {
     struct Shadow {
         Ray ray;
         Rgb light;
-        std::uint32_t bounce, sample, dimension;
+        std::uint32_t bounce, sample, dimension, group;
+        LightLinks links{};
         bool is_open = false;  ///< whatever is in its way
     };
 
@@ -100,11 +102,14 @@ class Fog {
     Rgb sample_collision(std::uint32_t bounce, const Path& path, RandomStream& stream);
     Rgb sample_collision_evenly(std::uint32_t bounce, const Path& path, std::optional<MediaRay::Collided>& collided);
     void sample_shining(const FogVertex& vertex, std::uint32_t bounce);
+    void add_emitted(std::uint32_t bounce, const Path& path);
     Rgb shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& ray, const std::optional<RayHit>& hit,
                     float pdf_omega);
-    /// Whether a light, by its place, is there for what scatters at a bounce.
+    /// Whether a light, by its place, is there for what scatters at a bounce; and what it is linked to.
     bool is_lit_by(std::size_t light, std::uint32_t bounce) const;
-    void add_light(std::uint32_t bounce, std::uint32_t sample, const Rgb& light);
+    LightLinks links_of(std::size_t light) const;
+    /// group: whose light it is.
+    void add_light(std::uint32_t bounce, std::uint32_t sample, std::uint32_t group, const Rgb& light);
 
     const Work& work_;
     std::uint32_t fog_sample_, part_ = 0;

@@ -25,7 +25,7 @@ void Fog::add_candidates(const Light& lamp, const Path& path) {
         const Rgb before = path.throughput * ray_.before(i);
         if (!(max_component(before) > 0.0f)) return;
         ray_.set_typical_mix(i, mix_);
-        if (!mix_.scatters()) continue;
+        if (!mix_.scatters() || !is_receiver(links_of(place_of(lamp)), ray_.link_sets_in(i))) continue;
         const FogPart part{ray_, i, mix_};
         const auto lit = lit_part(lamp, part);
         if (!lit) continue;
@@ -67,7 +67,8 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     const LightSampling strategy = work_.settings.light_sampling;
     if (candidates.size() == 1 && weight == 1.0f && ray_.is_homogeneous() &&
         (strategy == LightSampling::joint || strategy == LightSampling::sptd) &&
-        !std::holds_alternative<AreaLight>(*candidates[0].lamp)) {
+        !std::holds_alternative<AreaLight>(*candidates[0].lamp) &&
+        !has_blockers_of_its_own(links_of(place_of(*candidates[0].lamp)))) {
         ray_.set_typical_mix(candidates[0].interval, mix_);
         if (mix_.lobes.size() == 1) {
             const std::uint32_t batches = (count + batch_size - 1) / batch_size;
@@ -139,7 +140,7 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
         const Lanes lanes = store(batch);
         return std::accumulate(lanes.begin(), lanes.end(), 0.0f);
     };
-    add_light(bounce, path.sample,
+    add_light(bounce, path.sample, work_.scene.light_group_of(place_of(*candidate.lamp)),
               path.throughput * ray_.before(candidate.interval) * mix_.lobes[0].sigma_s *
                   Rgb(sum(light.x), sum(light.y), sum(light.z)));
 }
@@ -162,6 +163,8 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
                             .bounce = bounce,
                             .sample = path.sample,
                             .dimension = dimension,
+                            .group = work_.scene.light_group_of(place_of(*candidate.lamp)),
+                            .links = links_of(place_of(*candidate.lamp)),
                             .is_open = !casts_shadows(*candidate.lamp)});
     };
     const bool shares = lamp.shares_with_phase();

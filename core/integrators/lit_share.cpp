@@ -13,8 +13,10 @@ Rgb lit_share(const LightRules& rules, const Surface& surface, const Vec3f& wi_l
     return lit / max(parts.sum(), Rgb(tiny<float>));
 }
 
-BatchMask obey_rules(const Scene& scene, std::uint32_t bounce, const VertexBatch& vertices, const LightPicks& picks,
-                     LightSampleOf<Batch>& samples) {
+BatchMask obey_rules(const Scene& scene, std::uint32_t bounce, const VertexBatch& vertices, const WordBatch& instances,
+                     const LightPicks& picks, LightSampleOf<Batch>& samples) {
+    std::array<std::uint32_t, batch_size> instance;
+    instances.store_unaligned(instance.data());
     const Lanes brought = store(max_component(abs(samples.radiance)));
     const Lanes x = store(samples.wi.x), y = store(samples.wi.y), z = store(samples.wi.z);
     Lanes shadowed;
@@ -23,7 +25,7 @@ BatchMask obey_rules(const Scene& scene, std::uint32_t bounce, const VertexBatch
         if (i >= vertices.count() || !(brought[i] > 0.0f)) return Rgb(0.0f);
         const LightRules& rules = scene.rules_of(picks.light[i]);
         if (!rules.casts_shadows) shadowed[i] = 0.0f;
-        if (bounce > rules.max_bounces) return Rgb(0.0f);
+        if (bounce > rules.max_bounces || !is_for(scene, rules.links, instance[i])) return Rgb(0.0f);
         const Vertex& vertex = vertices.lane(i);
         return lit_share(rules, vertex.surface, vertex.point.frame.to_local({x[i], y[i], z[i]}));
     });

@@ -88,11 +88,21 @@ Rgb MediaRay::transmittance(std::size_t i, float near_m, float far_m) const {
     return left;
 }
 
+const LinkSets& MediaRay::link_sets_at(float distance_m) const {
+    std::size_t i = 0;
+    while (i + 1 < size() && interval(i).far_m < distance_m) ++i;
+    return link_sets_in(i);
+}
+
+std::uint32_t MediaRay::light_group_in(std::size_t i) const {
+    const auto first = std::ranges::find_if(ids(i), [&](std::uint32_t id) { return emits(id); });
+    return first == ids(i).end() ? no_light_group : media_.at(*first).light_group;
+}
+
 Rgb MediaRay::emitted_in(std::size_t i) const {
     const MediumInterval& part = interval(i);
     const float length_m = part.far_m - part.near_m;
-    const auto emits = [&](std::uint32_t id) { return max_component(abs(media_.at(id).medium->emission)) > 0.0f; };
-    if (std::ranges::none_of(ids(i), emits)) return Rgb(0.0f);
+    if (std::ranges::none_of(ids(i), [&](std::uint32_t id) { return emits(id); })) return Rgb(0.0f);
     Rgb sum(0.0f);
     if (is_homogeneous(i)) {
         set_even_mix(i, mix_);

@@ -29,6 +29,13 @@ class MediaRay {
     Rgb transmittance(std::size_t i, float near_m, float far_m) const;
     /// The radiance that the media emit towards the ray's origin.
     Rgb emitted() const;
+    /// Of that what comes from interval i, to where it starts; and its light group: that of the first medium that
+    /// emits.
+    Rgb emitted_in(std::size_t i) const;
+    std::uint32_t light_group_in(std::size_t i) const;
+    /// By which lights find what interval i is full of: the first medium's. There is one.
+    const LinkSets& link_sets_at(float distance_m) const;
+    const LinkSets& link_sets_in(std::size_t i) const { return media_.at(ids(i).front()).link_sets; }
     /// Whether any of it scatters.
     bool scatters() const { return scatters_; }
     bool is_homogeneous() const { return is_homogeneous_; }
@@ -55,7 +62,7 @@ class MediaRay {
     GridRay grid_ray(const PlacedMedium& placed, const VoxelGrid& grid, float near_m, float far_m) const;
     /// The sum of what does not vary in interval i.
     void set_even_mix(std::size_t i, MediumMix& mix) const;
-    Rgb emitted_in(std::size_t i) const;
+    bool emits(std::uint32_t id) const { return max_component(abs(media_.at(id).medium->emission)) > 0.0f; }
 
     const Media& media_;
     Ray ray_{};

@@ -3,10 +3,10 @@
 #include <numeric>
 
 #include "core/bsdf/subsurface_entry.h"
+#include "core/integrators/bounce_counts.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/fog.h"
-#include "core/integrators/light_sampler.h"
-#include "core/integrators/lit_share.h"
+#include "core/integrators/met_light.h"
 #include "core/integrators/straight_paths.h"
 #include "core/integrators/subsurface.h"
 
@@ -24,61 +24,6 @@ void sort_by_material(Paths& paths, Paths& sorted, std::vector<std::uint32_t>& f
     for (const Path& path : paths) sorted[first_of[path.arrival.material]++] = path;
     std::fill(first_of.begin(), first_of.end(), 0u);
     paths.swap(sorted);
-}
-
-/// The weight of a BSDF sample that meets a light of which so many samples are expected, beside these.
-float bsdf_weight(const Light& light, LightSampling strategy, std::uint32_t bounce, const Vertex& vertex,
-                  const LightPoint& place, float expected_samples, float bsdf_pdf_omega) {
-    const LightSampler sampler(light, vertex.point, vertex.surface, strategy_at(bounce, light, strategy));
-    if (!sampler.shares_with_bsdf()) return 0.0f;
-    return balance(bsdf_pdf_omega, expected_samples * sampler.pdf_omega(place));  // 0: BSDF samples are alone
-}
-
-/// What a BSDF sample meets of the lamps that its vertex sampled on its way on.
-Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const SharedLamp> lamps, const Vertex& vertex,
-              const Vec3f& wi, float bsdf_pdf_omega, const WayOn& way, std::uint32_t sample) {
-    const float distance_m = way.hit ? way.hit->distance_m : std::numeric_limits<float>::infinity();
-    Rgb radiance(0.0f);
-    for (const auto& [index, expected] : lamps) {
-        const Light& lamp = work.scene.light(index);
-        const auto place = intersect_light(lamp, vertex.point.position, wi);
-        // A sun is met where the ray leaves the scene: infinity against infinity.
-        const LightRules rules = work.scene.has_light_rules() ? work.scene.rules_of(index) : LightRules{};
-        if (!place || bounce > rules.max_bounces || (rules.casts_shadows && place->distance_m > distance_m)) continue;
-        Rgb light = place->radiance *
-                    (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
-                     expected);
-        light *= lit_share(rules, vertex.surface, vertex.point.frame.to_local(wi));
-        if (!way.passages.empty() && rules.casts_shadows) light *= way.worth_from(place->distance_m);
-        if (fog && rules.casts_shadows)
-            light *=
-                fog->transmittance({.origin = vertex.point.ray_origin(wi), .direction = wi, .far_m = place->distance_m},
-                                   sample, static_cast<std::uint32_t>(index));
-        radiance += light;
-    }
-    return radiance;
-}
-
-/// The weight of the emission that a lane's BSDF sample meets on a surface: less than 1 if its triangle is sampled too.
-float emission_weight(const Work& work, std::uint32_t bounce, const VertexBatch& vertices, const VertexLights& lights,
-                      std::size_t lane, const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
-    const auto index = work.scene.light_of(hit);
-    if (!index) return 1.0f;
-    const Light light = work.scene.light_at(*index, hit.time);
-    const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
-    if (!place) return 1.0f;
-    return bsdf_weight(light, work.settings.light_sampling, bounce, vertices.lane(lane), *place,
-                       lights.expected_samples(lane, *index), bsdf_pdf_omega);
-}
-
-/// The world's light that BSDF samples meet, weighted where it is sampled too.
-Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, const WordBatch& ray_kind,
-                std::uint32_t bounce) {
-    const Environment& environment = work.scene.environment();
-    const Vec3b radiance = world_radiance(work.scene.world_view(), wi, ray_kind, bounce, work.memory.registers);
-    if (environment.is_dark() || work.settings.light_sampling == LightSampling::bsdf) return radiance;
-    if (work.settings.light_sampling == LightSampling::light) return Vec3b(Batch(0.0f));
-    return radiance * balance(bsdf_pdf_omega, environment.pdf_omega(wi));
 }
 
 /// Up to a batch of paths at their vertices.
@@ -143,6 +88,7 @@ void see_first_hits(const Work& work, const PathBatch& batch) {
         const Rgb emitted = batch.paths[i].throughput * emission[i];
         sample.radiance += emitted;
         sample.emission += emitted;
+        add_to_group(work, batch.paths[i].sample, work.scene.light_group_of(batch.paths[i].arrival.hit), emitted);
         if (!(batch.paths[i].emission_weight > 0.0f)) continue;
         sample.normal = normal[i];
         sample.albedo = albedo[i];
@@ -172,9 +118,15 @@ void see_features(const Work& work, std::uint32_t bounce, const PathBatch& batch
     }
 }
 
-/// Adds the light that paths bring by way of their vertices.
-void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, const Vec3b& unbounded) {
-    const Vec3b light = bounded(work.settings, bounce, unbounded);
+/// Adds the light that paths, of that throughput, bring by way of their vertices, and of it what was noted of groups.
+void add_light(const Work& work, std::uint32_t bounce, const PathBatch& batch, const Vec3b& throughput,
+               const Vec3b& radiance) {
+    const Vec3b unbounded = throughput * radiance;
+    const Batch share = bounded_share(work.settings, bounce, unbounded);
+    const Vec3b light = unbounded * share;
+    if (work.groups)
+        work.groups->add_noted(batch.paths.size(), throughput * share,
+                               [&](std::size_t i) { return batch.paths[i].sample; });
     const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         const Rgb added(r[i], g[i], b[i]);
@@ -246,7 +198,14 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
                         .throughput = scattered.throughput,
                         .spread = spread,
                         .emission_weight = Batch(1.0f),
-                        .sample = batch.lanes.sample});
+                        .sample = batch.lanes.sample,
+                        .bounces = batch.lanes.bounces});
+    if (work.settings.bounce_limits != BounceLimits{}) {
+        std::array<std::uint32_t, batch_size> kinds;
+        scattered.ray_kind.store_unaligned(kinds.data());
+        for (std::size_t i = 0; i < batch_size; ++i)
+            paths[i].bounces = counted_ray(paths[i].bounces, work.settings.bounce_limits, kinds[i]);
+    }
     const BatchMask is_lost = equal(hit.instance, WordBatch(no_instance));
     Vec3b sky(Batch(0.0f));
     if (scene.has_world() && any(is_lost))
@@ -254,6 +213,14 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
             select(is_lost, world_met(work, scattered.rays.direction, scattered.pdf_omega, ray_kind, bounce + 1), sky);
     const auto goes_on = store(scattered.goes_on);
     const bool is_weakened = fog || scene.has_transparency();
+    const auto note = [&](std::size_t i, std::uint32_t group, const Rgb& light, const Rgb& share) {
+        if (work.groups) work.groups->note(i, group, light * share);
+    };
+    std::array<Ray, batch_size> rays_of_lanes;
+    std::array<std::uint32_t, batch_size> kinds_of_lanes;
+    if (scene.has_blockers()) rays_of_lanes = unpack<RayOf>(scattered.rays);
+    scattered.ray_kind.store_unaligned(kinds_of_lanes.data());
+    const Lanes sky_r = store(sky.x), sky_g = store(sky.y), sky_b = store(sky.z);
     std::array<Rgb, batch_size> left, lamps;  // what is left on the way, and of lamps on it, where it is weakened
     if (is_weakened) {
         const std::array<Ray, batch_size> rays = unpack<RayOf>(scattered.rays);
@@ -279,26 +246,40 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
         }
         Arrival& arrival = path.arrival;
         const bool is_met = arrival.hit.instance != no_instance;
+        const Rgb left_of_it = is_weakened ? left[i] : Rgb(1.0f);
+        if (!is_met) note(i, scene.world_light_group(), {sky_r[i], sky_g[i], sky_b[i]}, left_of_it);
         Rgb light(0.0f);
         if (!shared.at(i).empty())
             (is_weakened ? lamps[i] : light) =
                 lamps_met(work, fog, bounce, shared.at(i), batch.vertices.lane(i), arrival.direction, pdf_omega[i],
-                          way_of(i, arrival), path.sample);
+                          way_of(i, arrival), batch.paths[i], i);
+        if (scene.has_blockers())
+            (is_weakened ? lamps[i] : light) +=
+                shining_past_others_met(work, fog, bounce, batch.paths[i], batch.vertices, lights, i, rays_of_lanes[i],
+                                        kinds_of_lanes[i], pdf_omega[i]);
         bool shines_by_program = false;
         if (is_met) {
             arrival.material = scene.material_of(arrival.hit);
             const Shader& shader = scene.shaders()[arrival.material];
             shines_by_program = shader.has_varying_emission();
             if (shader.is_emissive()) {
-                path.emission_weight = emission_weight(work, bounce, batch.vertices, lights, i, arrival.direction,
-                                                       pdf_omega[i], arrival.hit);
-                if (!shines_by_program) light += path.emission_weight * shader.constants.emission;
+                path.emission_weight = scene.has_links() && !counts_where_it_is_met(scene, arrival.hit,
+                                                                                    batch.paths[i].arrival.hit.instance)
+                                           ? 0.0f
+                                           : emission_weight(work, bounce, batch.vertices, lights, i, arrival.direction,
+                                                             pdf_omega[i], arrival.hit);
+                if (!shines_by_program) {
+                    const Rgb met = path.emission_weight * shader.constants.emission;
+                    light += met;
+                    note(i, scene.light_group_of(arrival.hit), met, left_of_it);
+                }
             }
         }
         r[i] = light.x, g[i] = light.y, b[i] = light.z;
         if (!(max_component(path.throughput) > 0.0f)) continue;
         // What shines by its program tells how much when its own batch is shaded.
-        if (!is_met || (bounce == work.settings.max_bounces && !shines_by_program)) continue;
+        const bool is_last = bounce == work.settings.max_bounces || (path.bounces & path_ends);
+        if (!is_met || (is_last && !shines_by_program)) continue;
         if (scene.has_transparency() && straight.ways[i].only_shines()) continue;
         if (bounce >= first_roulette_bounce) {
             if (u_roulette[i] >= survival[i]) continue;
@@ -311,7 +292,9 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
     if (is_weakened)
         light = light * gather_vector([&](std::size_t i) { return left[i]; }) +
                 gather_vector([&](std::size_t i) { return lamps[i]; });
-    add_light(work, bounce, batch, select(scattered.goes_on, scattered.throughput * light, Vec3b(Batch(0.0f))));
+    const Vec3b black(Batch(0.0f));
+    add_light(work, bounce, batch, select(scattered.goes_on, scattered.throughput, black),
+              select(scattered.goes_on, light, black));
 }
 
 /// Traces a batch of paths from their vertices on, as many as it says: what light they bring there, and where they go
@@ -319,25 +302,36 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
 std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, Vertices kind, std::span<const Path> paths,
                          Paths& next, Paths& exits) {
     const std::uint32_t bounce = plan.bounce;
-    const PathBatch batch = make_batch(work, bounce, paths, kind);
+    PathBatch batch = make_batch(work, bounce, paths, kind);
     const std::size_t count = batch.paths.size();
     if (kind == Vertices::exits) {
         // What shines there was seen from outside, if at all.
     } else if (bounce == 0)
         see_first_hits(work, batch);
-    else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
-        add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
+    else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission()) {
+        const Vec3b met = batch.emission * batch.lanes.emission_weight;
+        if (work.groups)
+            work.groups->note(met, [&](std::size_t i) {
+                return i < count ? work.scene.light_group_of(batch.paths[i].arrival.hit) : no_light_group;
+            });
+        add_light(work, bounce - 1, batch, batch.lanes.throughput, met);
+    }
     if (!work.feature_worths.empty()) see_features(work, bounce, batch);
     if (bounce > work.settings.max_bounces) return count;
+    if (work.settings.bounce_limits != BounceLimits{}) {
+        const BatchMask ends = !equal(batch.lanes.bounces & WordBatch(path_ends), WordBatch(0u));
+        batch.lanes.throughput = select(ends, Vec3b(Batch(0.0f)), batch.lanes.throughput);
+    }
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
-    const ShadowPath shadow_path{work.settings.max_passages, bounce, batch.lanes.arrival.ray_kind};
+    const ShadowPath shadow_path{work.settings.max_passages, bounce, batch.lanes.arrival.ray_kind,
+                                 batch.lanes.arrival.hit.instance};
     const bool tells_shares = bounce == 0 && !work.passes.empty();
     LightSharesOf<Batch> shares;
     const Vec3b direct = direct_light(work.scene, work.settings.light_sampling, plan, batch.vertices, lights, shared,
-                                      shadow_path, work.memory, tells_shares ? &shares : nullptr);
+                                      shadow_path, work.memory, tells_shares ? &shares : nullptr, work.groups);
     if (tells_shares) set_pass_shares(work, batch, shares);
-    add_light(work, bounce, batch, batch.lanes.throughput * direct);
+    add_light(work, bounce, batch, batch.lanes.throughput, direct);
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
     if (kind == Vertices::arrivals && !work.is_diffused.empty())
@@ -359,7 +353,8 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, Ver
 }  // namespace
 
 void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                 std::span<const Sampler> samplers, std::span<Sample> samples, std::span<SurfacePasses> passes) {
+                 std::span<const Sampler> samplers, std::span<Sample> samples, std::span<SurfacePasses> passes,
+                 std::span<Rgb> named) {
     // Where there are media, paths that first scatter in them have samples of their own behind the others.
     const bool has_media = !scene.media().is_empty();
     const std::size_t count = samples.size();
@@ -376,6 +371,10 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     std::vector<std::uint8_t> is_diffused(scene.inner_rays().is_empty() ? 0 : (has_media ? 2 : 1) * count);
     std::vector<PassShares> pass_shares(passes.size());
     std::vector<Rgb> feature_worths(settings.denoising_passes ? (has_media ? 2 : 1) * count : 0, Rgb(1.0f));
+    std::vector<Rgb> own_named(has_media ? 2 * named.size() : 0, Rgb(0.0f));
+    std::optional<GroupLight> groups;
+    if (settings.light_groups > 0)
+        groups.emplace(settings.light_groups, settings.named_passes(), has_media ? std::span<Rgb>(own_named) : named);
     const Work work{scene,
                     settings,
                     has_media ? std::span<const Sampler>(own_samplers) : samplers,
@@ -385,7 +384,8 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                     is_diffused,
                     passes,
                     pass_shares,
-                    feature_worths};
+                    feature_worths,
+                    groups ? &*groups : nullptr};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;
@@ -418,6 +418,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
         samples[i].volume_direct += scattered.volume_direct;
         samples[i].volume_indirect = scattered.radiance - scattered.volume_direct;
     }
+    for (std::size_t k = 0; groups && k < named.size(); ++k) named[k] += own_named[k] + own_named[named.size() + k];
 }
 
 }  // namespace pivot

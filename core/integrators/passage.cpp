@@ -8,9 +8,6 @@
 namespace pivot {
 namespace {
 
-/// Where a ray goes on behind a surface: far enough not to meet it again.
-float behind(float distance_m) { return distance_m * (1.0f + 2e-6f); }
-
 /// Whether two hits of a ray are one: where it meets an edge, which is both triangles'.
 bool is_same(const RayHit& a, const RayHit& b) {
     return a.instance == b.instance && a.distance_m < behind(b.distance_m) && b.distance_m < behind(a.distance_m);
@@ -193,6 +190,30 @@ Vec3b light_through(const Scene& scene, const RayOf<Batch>& rays, const ShadowPa
     for (std::size_t i = 0; i < batch_size; ++i) left[i] = Rgb(open[i]);
     for (std::size_t k = 0; k < filters.size(); ++k) left[filters[k].lane] *= found[k].color;
     return gather_vector([&](std::size_t i) { return left[i]; });
+}
+
+Rgb light_past_others(const Scene& scene, const Ray& ray, const LightLinks& links, const ShadowPath& path,
+                      std::size_t lane, ProgramMemory& memory) {
+    std::array<std::uint32_t, batch_size> ray_kind;
+    path.ray_kind.store_unaligned(ray_kind.data());
+    const std::uint32_t passed = passed_by(ray_kind[lane]);
+    std::vector<Arrival> arrivals;
+    Ray onwards = ray;
+    while (const auto hit = scene.intersect(onwards, static_cast<Visibility>(hides_light | filters_light))) {
+        onwards.near_m = behind(hit->distance_m);
+        if (!is_blocker(links, scene.link_sets_of(hit->instance))) continue;
+        const std::uint32_t material = scene.material_of(*hit);
+        if (!scene.shaders()[material].filters_light() || passed + arrivals.size() >= path.max_passages)
+            return Rgb(0.0f);
+        arrivals.push_back({.direction = ray.direction,
+                            .hit = *hit,
+                            .material = material,
+                            .footprint_m = 0.0f,
+                            .ray_kind = shadow_ray + passed * passed_one});
+    }
+    Rgb left(1.0f);
+    for (const Transparency& passing : transparencies(scene, arrivals, path.bounce, memory)) left *= passing.color;
+    return left;
 }
 
 void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,

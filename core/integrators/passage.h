@@ -41,6 +41,9 @@ inline std::vector<StraightRay> straight_rays(std::span<const Ray> camera_rays,
     return rays;
 }
 
+/// Where a ray goes on behind a surface: far enough not to meet it again.
+inline float behind(float distance_m) { return distance_m * (1.0f + 2e-6f); }
+
 /// A ray's part that begins behind a surface, or all of it up to there.
 inline Ray part_of(const Ray& ray, float from_m, float to_m) {
     if (!(from_m > 0.0f)) return {ray.origin, ray.direction, ray.near_m, to_m, ray.time};
@@ -110,13 +113,18 @@ struct ShadowPath {
     std::uint32_t max_passages;
     std::uint32_t bounce;
     WordBatch ray_kind;  ///< of the ray to where the shadow ray begins: what was passed counts on
+    WordBatch instance = WordBatch(no_instance);  ///< that is lit; of media none
 };
 
 /// What transparent surfaces leave of light along shadow rays, of which none meets what hides it.
 Vec3b light_through(const Scene& scene, const RayOf<Batch>& rays, const ShadowPath& path, ProgramMemory& memory);
 
-/// The same of rays from surfaces that a camera sees, whatever these meet: 0 where it is opaque. What the camera looked
-/// through does not count among the passages.
+/// What is left along one shadow ray to a light that has blockers of its own: it passes whatever is none.
+Rgb light_past_others(const Scene& scene, const Ray& ray, const LightLinks& links, const ShadowPath& path,
+                      std::size_t lane, ProgramMemory& memory);
+
+/// The same as light_through of rays from surfaces that a camera sees, whatever these meet: 0 where it is opaque. What
+/// the camera looked through does not count among the passages.
 void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,
                  ProgramMemory& memory);
 

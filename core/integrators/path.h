@@ -4,6 +4,7 @@
 #include "core/bsdf/surface_parts.h"
 #include "core/film/film.h"
 #include "core/integrators/arrival.h"
+#include "core/integrators/group_light.h"
 #include "core/integrators/settings.h"
 #include "core/integrators/vertex.h"
 
@@ -20,6 +21,7 @@ struct PathOf {
     T spread;            ///< how much the footprint grows on the way, m for each m
     T emission_weight;   ///< of what the surface's program emits, beside light samples; first hits: 1 if passes tell
     Word<T> sample;      ///< of the caller's
+    Word<T> bounces = Word<T>(0u);  ///< counted by kind, where there are limits: see counted()
 };
 
 using Path = PathOf<float>;
@@ -43,6 +45,7 @@ struct Work {
     std::span<PassShares> pass_shares{};  ///< likewise, of the path so far
     std::span<Rgb> feature_worths{};      ///< of each sample, how much mirrors and glass so far show of what a denoiser
                                           ///< goes by, 0 once that is known; empty: there is no denoiser
+    GroupLight* groups = nullptr;         ///< null: nobody asks
 };
 
 /// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn
@@ -52,18 +55,23 @@ T spread_of_sample(const RenderSettings& settings, const T& pdf_omega) {
     return T(part_of_pixel(settings)) * inverse_sqrt(max(T(pi<float>) * pdf_omega, T(1e-3f)));
 }
 
-/// Light that bounced may be bounded, at the price of some of it.
+/// Light that bounced may be bounded, at the price of some of it: the share that is left.
 template <class T>
-Vec3<T> bounded(const RenderSettings& settings, std::uint32_t bounce, const Vec3<T>& light) {
-    if (bounce == 0 || !(settings.clamp_indirect > 0.0f)) return light;
+T bounded_share(const RenderSettings& settings, std::uint32_t bounce, const Vec3<T>& light) {
+    if (bounce == 0 || !(settings.clamp_indirect > 0.0f)) return T(1);
     const T size = mean_component(abs(light)), limit(settings.clamp_indirect);
-    return light * select(size > limit, limit / size, T(1));
+    return select(size > limit, limit / size, T(1));
 }
 
 /// Adds what a path brings by way of its vertex of that bounce.
 inline void add_radiance(std::uint32_t bounce, const Rgb& light, Sample& sample) {
     sample.radiance += light;
     if (bounce > 0) sample.indirect += light;
+}
+
+/// Adds light to a sample's of a light group, if anybody asks for these.
+inline void add_to_group(const Work& work, std::size_t sample, std::uint32_t group, const Rgb& light) {
+    if (work.groups) work.groups->add(sample, group, light);
 }
 
 /// Adds the same to what passes tell of the surface that the path first met.

@@ -2,10 +2,13 @@
 
 #include "core/bsdf/surface_parts.h"
 #include "core/integrators/passage.h"
+#include "core/sampling/warp.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
 namespace {
+
+constexpr std::uint32_t occlusion_dimension = 3u << 24;  // of samplers, past those of paths
 
 /// What a camera ray shows of a surface.
 struct Seen {
@@ -13,6 +16,95 @@ struct Seen {
     std::size_t ray;
     Rgb worth;
     bool is_told;  ///< of those on a ray the one that stands for it
+};
+
+/// A ray that is to tell whether a surface is occluded, and what it counts.
+struct OcclusionRay {
+    Ray ray;
+    std::size_t sample;
+    float weight;
+};
+
+/// Of a lane's surface, by the cosine about its shading normal. [Cycles 4.5 integrator/shade_surface.h]
+OcclusionRay occlusion_ray(const SurfacePointOf<Batch>& points, std::size_t lane, const Sampler& sampler,
+                           const RenderSettings& settings, std::size_t sample, float weight) {
+    const SurfacePoint point = unpack<SurfacePointOf>(points)[lane];
+    const Vec3f wi = point.frame.to_world(sample_cosine_hemisphere(sampler.point(occlusion_dimension)));
+    return {{.origin = point.ray_origin(wi), .direction = wi, .near_m = 0.0f, .far_m = settings.occlusion_distance_m},
+            sample,
+            weight};
+}
+
+void add_occlusion(const Scene& scene, const RenderSettings& settings, std::span<const OcclusionRay> occlusion_rays,
+                   std::span<SurfacePasses> passes, ProgramMemory& memory) {
+    std::vector<Ray> rays;
+    for (const OcclusionRay& each : occlusion_rays) rays.push_back(each.ray);
+    std::vector<Rgb> left(rays.size());
+    light_along(scene, settings.max_passages, rays, left, memory);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        passes[occlusion_rays[i].sample].ambient_occlusion += occlusion_rays[i].weight * left[i];
+}
+
+/// What the shaders of surfaces give that rays meet up to the first which hides at least half of what is behind it, or
+/// the world's behind none; as often as rays get there. [Cycles 4.5 svm/aov.h, film/data_passes.h]
+class SeenValues {
+   public:
+    SeenValues(const Scene& scene, const RenderSettings& settings, std::span<Rgb> named)
+        : scene_(scene),
+          first_(settings.light_groups),
+          stride_(settings.named_passes()),
+          is_wanted_(settings.aovs > 0),
+          named_(named) {}
+
+    bool is_wanted() const { return is_wanted_; }
+
+    /// weight: how much of the ray's light comes from there.
+    void meet(const Arrival& arrival, std::size_t ray, float weight) {
+        for (const auto& [aov, material] : scene_.shaders()[arrival.material].aovs) {
+            met_.push_back({arrival, place_of(ray, aov), weight});
+            met_.back().arrival.material = material;
+        }
+    }
+
+    void meet_world(const Vec3f& direction, std::size_t ray, float weight, Registers& registers) {
+        for (const auto& [aov, value] : scene_.world_aovs())
+            put(place_of(ray, aov), weight,
+                world_radiance({value, scene_.camera_facts()}, direction, camera_ray, 0, registers));
+    }
+
+    /// Adds what was met of surfaces.
+    void add(ProgramMemory& memory) {
+        std::ranges::stable_sort(met_, {}, [](const Met& met) { return met.arrival.material; });
+        const auto arrival_of = [](const Met& met) -> const Arrival& { return met.arrival; };
+        for_each_arrival_batch<Met>(
+            scene_, met_, arrival_of, [&](std::span<const Arrival* const> arrivals, std::span<const Met> of_batch) {
+                const Vec3b values = make_arrivals(scene_, arrivals, 0, memory).material.emission;
+                const Lanes r = store(values.x), g = store(values.y), b = store(values.z);
+                for (std::size_t i = 0; i < of_batch.size(); ++i)
+                    put(of_batch[i].place, of_batch[i].weight, {r[i], g[i], b[i]});
+            });
+    }
+
+   private:
+    struct Met {
+        Arrival arrival;
+        std::size_t place;
+        float weight;
+    };
+
+    std::size_t place_of(std::size_t ray, std::uint32_t aov) const {
+        return ray * stride_ + first_ + colors_of_aov * aov;
+    }
+    void put(std::size_t place, float weight, const Rgb& value) {
+        named_[place] += weight * value;
+        named_[place + 1].x += weight;
+    }
+
+    const Scene& scene_;
+    std::size_t first_, stride_;
+    bool is_wanted_;
+    std::span<Rgb> named_;
+    std::vector<Met> met_;
 };
 
 float nearness_of(const Mist& mist, float distance_m) {
@@ -36,7 +128,7 @@ Vec3f uv_of(const Scene& scene, int attribute, const RayHit& hit) {
 }
 
 std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings, std::span<const Ray> rays,
-                              ProgramMemory& memory, std::span<SurfacePasses> passes) {
+                              ProgramMemory& memory, std::span<SurfacePasses> passes, SeenValues& values) {
     std::vector<std::optional<RayHit>> hits(rays.size());
     scene.intersect(rays, visible_to_camera, hits);
     const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(settings);
@@ -48,22 +140,24 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         Rgb worth(1.0f);
-        const auto show = [&](const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind, bool is_told) {
-            if (scene.is_holdout(hit)) return;
-            seen.push_back({{.direction = rays[i].direction,
-                             .hit = hit,
-                             .material = material,
-                             .footprint_m = width.at(hit.distance_m),
-                             .ray_kind = ray_kind},
-                            i,
-                            worth,
-                            is_told});
+        const auto arrival_at = [&](const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind) {
+            return Arrival{.direction = rays[i].direction,
+                           .hit = hit,
+                           .material = material,
+                           .footprint_m = width.at(hit.distance_m),
+                           .ray_kind = ray_kind};
         };
-        bool ends = false;
+        const auto show = [&](const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind, bool is_told) {
+            if (!scene.is_holdout(hit)) seen.push_back({arrival_at(hit, material, ray_kind), i, worth, is_told});
+        };
+        bool ends = false, is_hidden = false;
         if (scene.has_transparency()) {
             const std::span<const Passage> way = take_passages(left, i);
             const Passage* told = told_of(way);
             for (const Passage& passage : way) {
+                if (values.is_wanted() && !is_hidden)
+                    values.meet(arrival_at(passage.hit, passage.material, passage.ray_kind), i, mean_component(worth));
+                is_hidden = is_hidden || passage.opacity >= 0.5f;
                 if (passage.shown > 0.0f && !passage.only_shines)
                     show(passage.hit, passage.material, passage.ray_kind, &passage == told);
                 worth *= passage.passed;
@@ -71,8 +165,11 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
             }
         } else if (hits[i]) {
             show(*hits[i], scene.material_of(*hits[i]), camera_ray, true);
+            if (values.is_wanted()) values.meet(arrival_at(*hits[i], scene.material_of(*hits[i]), camera_ray), i, 1.0f);
             ends = true;
         }
+        if (!ends && values.is_wanted() && !is_hidden)
+            values.meet_world(rays[i].direction, i, mean_component(worth), memory.registers);
         if (!ends && !passes.empty())
             passes[i].environment =
                 worth * world_radiance(scene.world_view(), rays[i].direction, camera_ray, 0, memory.registers);
@@ -83,9 +180,14 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
 }  // namespace
 
 void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
-                  std::span<SurfacePasses> passes, std::vector<SeenMatte>& mattes) {
+                  std::span<const Sampler> samplers, std::span<SurfacePasses> passes, std::vector<SeenMatte>& mattes,
+                  std::span<Rgb> named) {
     ProgramMemory memory;
-    std::vector<Seen> seen = surfaces_on(scene, settings, camera_rays, memory, passes);
+    SeenValues values(scene, settings, named);
+    std::vector<Seen> seen = surfaces_on(scene, settings, camera_rays, memory, passes, values);
+    values.add(memory);
+    if (passes.empty() && !settings.mattes) return;
+    std::vector<OcclusionRay> occlusion_rays;
     std::ranges::stable_sort(seen, {}, [](const Seen& s) { return s.arrival.material; });
     const auto arrival_of = [](const Seen& s) -> const Arrival& { return s.arrival; };
     for_each_arrival_batch<Seen>(
@@ -108,9 +210,12 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 pass.glossy_color += s.worth * colors[i].glossy;
                 pass.transmission_color += s.worth * colors[i].transmission;
                 pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
+                if (settings.occlusion_distance_m > 0.0f)
+                    occlusion_rays.push_back(occlusion_ray(batch.point, i, samplers[s.ray], settings, s.ray, weight));
                 if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
             }
         });
+    add_occlusion(scene, settings, occlusion_rays, passes, memory);
     std::ranges::stable_sort(mattes, {}, &SeenMatte::ray);
 }
 

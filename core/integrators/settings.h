@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/film/pixel_filter.h"
+#include "core/film/shadow_catcher.h"
 
 namespace pivot {
 
@@ -35,6 +36,16 @@ struct Mist {
     float start_m = 5.0f, depth_m = 25.0f, falloff = 2.0f;
 };
 
+/// How often a path may be reflected or scattered in each way; 0: direct light only of what it comes to so.
+struct BounceLimits {
+    std::uint32_t diffuse = ~0u, glossy = ~0u, transmission = ~0u, scatter = ~0u;
+
+    bool operator==(const BounceLimits&) const = default;
+};
+
+/// What is kept of each AOV: its colour, and the share of the pixel where shaders give it.
+inline constexpr std::size_t colors_of_aov = 2;
+
 struct RenderSettings {
     Integrator integrator = Integrator::monte_carlo;
     LightSampling light_sampling = LightSampling::joint;
@@ -42,6 +53,7 @@ struct RenderSettings {
     bool adaptive = false;  ///< samples go where they help the picture most, until it meets the error budget
     std::uint32_t seed = 0;
     std::uint32_t max_bounces = 4;        ///< 0: direct light only
+    BounceLimits bounce_limits{};         ///< of each kind, beside
     std::uint32_t max_passages = 8;       ///< transparent surfaces that a path and a shadow ray from it pass together
     std::uint32_t max_path_passages = 9;  ///< and that a path passes: of what is behind it shows only what shines
     float clamp_indirect = 0.0f;          ///< the mean over colours that light which bounced adds at once; 0: no bound
@@ -57,11 +69,19 @@ struct RenderSettings {
     PixelFilterShape filter_shape = PixelFilterShape::blackman_harris;
     float filter_width_px = 1.5f;
     bool transparent_film = false;
-    bool denoising_passes = false;  ///< whether what a denoiser works on is kept
-    bool surface_passes = false;    ///< whether what passes tell of surfaces and their light is
-    bool mattes = false;            ///< whether what Cryptomatte's passes rank is
-    int uv_attribute = -1;          ///< that the pass shows; -1: none
+    bool denoising_passes = false;   ///< whether what a denoiser works on is kept
+    bool surface_passes = false;     ///< whether what passes tell of surfaces and their light is
+    bool mattes = false;             ///< whether what Cryptomatte's passes rank is
+    int uv_attribute = -1;           ///< that the pass shows; -1: none
+    std::uint32_t light_groups = 0;  ///< whose light passes show apart
+    std::uint32_t aovs = 0;          ///< values of shaders that passes show
     Mist mist{};
+    bool shadow_catchers = false;       ///< whether what others do to their light is told; by Monte Carlo
+    float occlusion_distance_m = 0.0f;  ///< how far the pass of ambient occlusion looks; 0: it is not asked for
+
+    std::size_t named_passes() const { return first_catcher_pass() + (shadow_catchers ? catcher_pass::count : 0); }
+    /// What is kept for shadow catchers comes behind the passes that an artist names.
+    std::size_t first_catcher_pass() const { return std::size_t{light_groups} + colors_of_aov * aovs; }
 };
 
 /// What every pixel has at least: all, or the pilot of adaptive sampling, which needs more to be worth it.

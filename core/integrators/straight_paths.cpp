@@ -95,6 +95,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
                     const Rgb emitted = path.throughput * scene.shaders()[passage.material].constants.emission;
                     sample.radiance += emitted;
                     sample.emission += emitted;
+                    add_to_group(work, i, scene.light_group_of(passage.hit), emitted);
                 } else if (passage.shown > 0.0f) {
                     path.emission_weight = &passage == told ? 1.0f : 0.0f;
                     show(passage.hit, passage.material, passage.shown);
@@ -116,6 +117,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
         const Rgb sky = path.throughput * world_radiance(scene.world_view(), camera_rays[i].direction, camera_ray, 0,
                                                          work.memory.registers);
         sample.radiance += sky;
+        add_to_group(work, i, scene.world_light_group(), sky);
         if (!work.passes.empty()) work.passes[i].environment = sky;
     }
 }

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "core/math/moving_transform.h"
+#include "core/scene/light_links.h"
 #include "core/shaders/place.h"
 
 namespace pivot {
+
+/// Of what shines: none of those that passes show apart.
+inline constexpr std::uint32_t no_light_group = ~0u;
 
 struct Instance {
     std::string name;
@@ -19,6 +23,10 @@ struct Instance {
     std::uint32_t visibility;
     float matte_object = 0.0f, matte_asset = 0.0f;  ///< ids of mattes
     bool is_holdout = false;                        ///< a camera sees a hole in its place
+    std::uint32_t light_group = no_light_group;     ///< that the light which leaves it of its own is of
+    LightLinks links{};                             ///< of that light
+    LinkSets link_sets{};                           ///< by which other lights find it
+    bool is_shadow_catcher = false;                 ///< a real thing's stand-in, for what others do to its light
     ObjectFacts facts{};
     Mat3<float> normal_matrix{1.0f};                  ///< of world_from_object; the scene sets it
     std::shared_ptr<const MovingTransform> motion{};  ///< null: it stays where it is

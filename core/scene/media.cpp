@@ -51,12 +51,19 @@ PlacedMedium place(const std::shared_ptr<const Medium>& medium, const Mesh& mesh
 
 }  // namespace
 
-Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::shared_ptr<const Mesh>> meshes,
-             std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders) {
+Media::Media(const std::shared_ptr<const Medium>& world, std::uint32_t world_light_group,
+             std::span<const std::shared_ptr<const Mesh>> meshes, std::span<const std::optional<Instance>> instances,
+             std::span<const Shader> shaders) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (world) {
-        placed_.push_back(
-            {world, {}, Vec3f(-infinity), Vec3f(infinity), world->sigma_s(), world->sigma_t(), std::nullopt});
+        placed_.push_back({world,
+                           {},
+                           Vec3f(-infinity),
+                           Vec3f(infinity),
+                           world->sigma_s(),
+                           world->sigma_t(),
+                           std::nullopt,
+                           world_light_group});
         has_world_ = true;
     }
     for (const std::optional<Instance>& instance : instances) {
@@ -68,7 +75,10 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::sh
         for (const std::uint32_t material : instance->materials) {
             const std::shared_ptr<const Medium>& medium = shaders[material].medium;
             boundary.medium_of_slot.push_back(medium ? static_cast<std::uint32_t>(placed_.size()) : no_medium);
-            if (medium) placed_.push_back(place(medium, mesh, instance->world_from_object));
+            if (!medium) continue;
+            placed_.push_back(place(medium, mesh, instance->world_from_object));
+            placed_.back().light_group = instance->light_group;
+            placed_.back().link_sets = instance->link_sets;
         }
     }
     are_even_boxes_ = std::ranges::all_of(placed_, [&](const PlacedMedium& placed) {

@@ -17,10 +17,12 @@ namespace pivot {
 /// A medium where it stands.
 struct PlacedMedium {
     std::shared_ptr<const Medium> medium;
-    Transform object_from_world;              ///< to the space that its grids are placed in
-    Vec3f low, high;                          ///< of world space, around it
-    Rgb sigma_s, sigma_t;                     ///< the medium's, 1/m, where its density is 1
-    std::optional<std::array<Vec3f, 2>> box;  ///< of object space, corners of what it fills where that is a box
+    Transform object_from_world;                 ///< to the space that its grids are placed in
+    Vec3f low, high;                             ///< of world space, around it
+    Rgb sigma_s, sigma_t;                        ///< the medium's, 1/m, where its density is 1
+    std::optional<std::array<Vec3f, 2>> box;     ///< of object space, corners of what it fills where that is a box
+    std::uint32_t light_group = no_light_group;  ///< of what it emits
+    LinkSets link_sets{};                        ///< by which lights find it
 
     bool varies() const { return !medium->is_homogeneous(); }
 };
@@ -51,8 +53,9 @@ struct MediaAlong {
 
 class Media {
    public:
-    Media(const std::shared_ptr<const Medium>& world, std::span<const std::shared_ptr<const Mesh>> meshes,
-          std::span<const std::optional<Instance>> instances, std::span<const Shader> shaders);
+    Media(const std::shared_ptr<const Medium>& world, std::uint32_t world_light_group,
+          std::span<const std::shared_ptr<const Mesh>> meshes, std::span<const std::optional<Instance>> instances,
+          std::span<const Shader> shaders);
 
     /// No media at all: rays need not ask.
     bool is_empty() const { return placed_.empty(); }

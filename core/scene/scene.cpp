@@ -179,9 +179,10 @@ std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transfo
     return first;
 }
 
-std::uint32_t Scene::add_light(const std::string& name, const Light& light, const LightRules& rules) {
+std::uint32_t Scene::add_light(const std::string& name, const Light& light, const LightRules& rules,
+                               std::uint32_t group) {
     const auto edit = begin_edit();
-    added_lights_.push_back(NamedLight{name, light, rules});
+    added_lights_.push_back(NamedLight{name, light, rules, group});
     are_lamps_stale_ = true;
     return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }
@@ -282,6 +283,27 @@ void Scene::set_world(Shader shader) {
     environment_ = std::move(light.environment);
 }
 
+void Scene::set_world_rules(const LightRules& rules) {
+    const auto edit = begin_edit();
+    world_rules_ = rules;
+}
+
+void Scene::set_world_light_group(std::uint32_t group) {
+    const auto edit = begin_edit();
+    world_light_group_ = group;
+}
+
+void Scene::set_aov(std::uint32_t material, std::uint32_t aov, std::uint32_t value_material) {
+    const auto edit = begin_edit();
+    at(shaders_, value_material, "material");
+    at(shaders_, material, "material").aovs.emplace_back(aov, value_material);
+}
+
+void Scene::set_world_aov(std::uint32_t aov, Shader value) {
+    const auto edit = begin_edit();
+    world_aovs_.emplace_back(aov, std::move(value));
+}
+
 void Scene::set_world_medium(std::shared_ptr<const Medium> medium) {
     const auto edit = begin_edit();
     world_medium_ = std::move(medium);
@@ -322,11 +344,12 @@ void Scene::commit() {
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     commit_visibility();
     commit_motion();
-    media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
+    media_ = std::make_unique<const Media>(world_medium_, world_light_group_, meshes_, instances_, shaders_);
     ray_tracer_.commit();
     commit_inner_rays();
     for (const Shader& shader : shaders_) shader.program.make_image_levels();
     world_.program.make_image_levels();
+    for (const auto& [aov, value] : world_aovs_) value.program.make_image_levels();
     commit_lamps();
     commit_triangle_lights();
     commit_light_rules();
@@ -364,8 +387,10 @@ void Scene::commit_visibility() {
         // Faces that only bound a medium are met by no ray but the media's own.
         const bool is_met = any_is([](const Shader& shader) { return shader.has_surface; });
         const bool is_transparent = any_is([](const Shader& shader) { return shader.is_transparent(); });
+        const bool filters = any_is([](const Shader& shader) { return shader.filters_light(); });
         std::uint32_t visibility = is_met ? instances_[i]->visibility : 0;
-        if (visibility & casts_shadows) visibility |= is_transparent ? filters_light : hides_light;
+        if (visibility & casts_shadows) visibility |= filters ? filters_light : hides_light;
+        if (has_blockers_of_its_own(instances_[i]->links) && shines(i)) visibility |= shines_past_others;
         has_holdouts_ = has_holdouts_ || instances_[i]->is_holdout;
         has_transparency_ = has_transparency_ || (visibility != 0 && is_transparent);
         ray_tracer_.set_visibility(static_cast<std::uint32_t>(i), visibility);
@@ -376,7 +401,7 @@ Batch Scene::filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, 
                       std::vector<RayTracer::Filtered>& found) const {
     const RayTracer::IsOpaque is_opaque = [this](std::uint32_t id, std::uint32_t triangle) {
         const Instance& instance = *instances_[id];
-        return !shaders_[pivot::material_of(instance, *meshes_[instance.mesh], triangle)].is_transparent();
+        return !shaders_[pivot::material_of(instance, *meshes_[instance.mesh], triangle)].filters_light();
     };
     return ray_tracer_.filtered(rays, most, is_opaque, found);
 }
@@ -393,8 +418,11 @@ void Scene::commit_inner_rays() {
 void Scene::commit_lamps() {
     if (!are_lamps_stale_) return;
     lamps_.clear();
+    lamp_groups_.clear();
     for (const NamedLight& named : added_lights_) {
-        if (named.light) lamps_.push_back(*named.light);
+        if (!named.light) continue;
+        lamps_.push_back(*named.light);
+        lamp_groups_.push_back(named.group);
     }
     lamp_tree_ = LightTree(lamps_);
     are_lamps_stale_ = false;
@@ -442,16 +470,6 @@ void Scene::commit_triangle_lights() {
     triangle_lights_ = std::move(lights);
     scene_triangles_ = std::move(triangles);
     triangle_tree_ = LightTree(triangle_lights_);
-}
-
-void Scene::commit_light_rules() {
-    light_rules_.clear();
-    for (const NamedLight& named : added_lights_)
-        if (named.light) light_rules_.push_back(named.rules);
-    for (const SceneTriangle& triangle : scene_triangles_)
-        light_rules_.push_back({.lights = instances_[triangle.instance]->visibility & visible_to_paths});
-    has_light_rules_ = std::ranges::any_of(light_rules_, [](const LightRules& rules) { return rules != LightRules{}; });
-    if (!has_light_rules_) light_rules_.clear();
 }
 
 bool Scene::shines(std::size_t instance) const {

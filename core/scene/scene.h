@@ -22,6 +22,7 @@ struct NamedLight {
     std::string name;
     std::optional<Light> light;  ///< none: removed
     LightRules rules;
+    std::uint32_t group = no_light_group;
 };
 
 /// What scenes share that are made one after the other, as edits ask for, of meshes that are mostly the same.
@@ -47,7 +48,8 @@ class Scene {
     /// consecutive.
     std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects,
                                 std::span<const ObjectFacts> facts);
-    std::uint32_t add_light(const std::string& name, const Light& light, const LightRules& rules = {});
+    std::uint32_t add_light(const std::string& name, const Light& light, const LightRules& rules = {},
+                            std::uint32_t group = no_light_group);
     void set_material(std::uint32_t id, Shader shader);
     void set_light(std::uint32_t id, const Light& light, const LightRules& rules = {});
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
@@ -62,6 +64,11 @@ class Scene {
     void remove_light(std::uint32_t id);
     /// Its emission is the light from everywhere.
     void set_world(Shader shader);
+    void set_world_light_group(std::uint32_t group);
+    void set_world_rules(const LightRules& rules);
+    /// Passes show what the emission of a material, of value_material, would be in its place; or of the world.
+    void set_aov(std::uint32_t material, std::uint32_t aov, std::uint32_t value_material);
+    void set_world_aov(std::uint32_t aov, Shader value);
     /// Fills all space; none: nothing does.
     void set_world_medium(std::shared_ptr<const Medium> medium);
     void set_camera(const Camera& camera);
@@ -101,8 +108,30 @@ class Scene {
     }
     /// A light by its place, where it is at a time.
     Light light_at(std::size_t place, float time) const;
+    bool has_links() const { return has_links_; }
+    /// Whether some light has blockers of its own.
+    bool has_blockers() const { return has_blockers_; }
+    /// Whether rays of a Visibility meet an instance.
+    bool is_met(std::uint32_t instance, std::uint32_t by) const { return (instances_[instance]->visibility & by) != 0; }
+    const LinkSets& link_sets_of(std::uint32_t instance) const { return instances_[instance]->link_sets; }
+    const LightLinks& links_of(std::uint32_t instance) const { return instances_[instance]->links; }
     /// Of a light by its place.
     const LightRules& rules_of(std::size_t place) const { return light_rules_[place]; }
+    /// The group whose light a light's is, by its place; what a surface shines; and the world's.
+    std::uint32_t light_group_of(std::size_t place) const {
+        return place < lamps_.size() ? lamp_groups_[place]
+                                     : instances_[scene_triangles_[place - lamps_.size()].instance]->light_group;
+    }
+    std::uint32_t light_group_of(const RayHit& hit) const { return instances_[hit.instance]->light_group; }
+    std::uint32_t world_light_group() const { return world_light_group_; }
+    const LightRules& world_rules() const { return world_rules_; }
+    bool has_world_rules() const { return world_rules_ != LightRules{}; }
+    /// Whether some instance is a shadow catcher; a scene of these alone, under the same lights, to be committed.
+    bool has_shadow_catchers() const;
+    std::shared_ptr<Scene> only_shadow_catchers() const;
+    bool is_shadow_catcher(const RayHit& hit) const { return instances_[hit.instance]->is_shadow_catcher; }
+    /// What passes show of the world in place of its light.
+    std::span<const std::pair<std::uint32_t, Shader>> world_aovs() const { return world_aovs_; }
     /// The triangle that one of triangle_lights() is.
     const SceneTriangle& shining_triangle(std::size_t triangle_light) const { return scene_triangles_[triangle_light]; }
     /// The triangle that a light is whose emission is a program's; nothing of other lights.
@@ -201,8 +230,12 @@ class Scene {
     std::vector<NamedLight> added_lights_;
     bool are_lamps_stale_ = false;
     std::vector<Light> lamps_, triangle_lights_;
+    std::vector<std::uint32_t> lamp_groups_;  ///< of each lamp
+    std::uint32_t world_light_group_ = no_light_group;
+    LightRules world_rules_;
+    std::vector<std::pair<std::uint32_t, Shader>> world_aovs_;
     std::vector<LightRules> light_rules_;  ///< of each light, by its place; empty: none has any
-    bool has_light_rules_ = false;
+    bool has_light_rules_ = false, has_links_ = false, has_blockers_ = false;
     std::vector<SceneTriangle> scene_triangles_;  ///< of each triangle light
     bool has_emissive_mesh_ = false, has_varying_lights_ = false;
     LightTree lamp_tree_, triangle_tree_;

@@ -18,6 +18,7 @@ enum Visibility : std::uint32_t {
     visible_to_all = 63,
     hides_light = 64,
     filters_light = 128,
+    shines_past_others = 256,  ///< its light has blockers of its own
 };
 
 }  // namespace pivot

@@ -28,9 +28,11 @@ struct Shader {
     std::shared_ptr<const Medium> medium;                     ///< that fills what it surrounds; none: nothing
     float matte = 0.0f;                                       ///< its id in mattes
     float pass_index = 0.0f;                                  ///< Blender's own of the material
+    bool filters_shadows = true;                              ///< false: it hides light, whatever rays see through it
     bool has_surface = true;                                  ///< false: rays pass, and only the medium is there
     bool normal_is_own = false;  ///< the surface's own, as displacement would turn it: nothing smooths its shadows
-    Program transparency;        ///< what of the program tells how much light passes; set_transparency() makes it
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> aovs;  ///< passes, and the material whose emission each shows
+    Program transparency;  ///< what of the program tells how much light passes; set_transparency() makes it
 
     Shader(const Material& material) : constants(material) {}  // NOLINT: a material is a shader of constants
     Shader(const Material& material, Program runs) : constants(material), program(std::move(runs)) {}
@@ -47,6 +49,8 @@ struct Shader {
     bool is_transparent() const {
         return has_varying_transparency() || max_component(constants.transparency.color) > 0.0f;
     }
+    /// Whether shadow rays pass through it.
+    bool filters_light() const { return filters_shadows && is_transparent(); }
     void set_transparency();
     /// Whether light may leave it of its own.
     bool is_emissive() const { return has_varying_emission() || constants.is_emissive(); }

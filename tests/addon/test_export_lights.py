@@ -145,7 +145,10 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
         "world 'World': Diffuse Visibility is not supported, it lights diffuse surfaces too",
     ]
     if host.version >= (4, 0):
-        said.append("light 'fill': light linking is not supported, it shines on everything")
+        said.append(
+            "light 'fill': in the analytic integrator it lights everything, and everything casts its shadows. "
+            "Fix: use Monte Carlo"
+        )
     assert sorted(cases["reports"]) == sorted(f"Pivot: {text}" for text in said)
 
 

@@ -7,8 +7,6 @@ from typing import Any
 from .table import LeftOut, Table
 
 
-def _is_surface(blender_object: Any) -> bool:
-    return blender_object.type in {"MESH", "VOLUME"}
 
 
 def _is_not_adaptive(modifiers: Any) -> bool:
@@ -36,18 +34,17 @@ OBJECT = {
         instance_type instance_collection instance_faces_scale use_instance_faces_scale use_instance_vertices_rotation
         is_instancer is_from_instancer is_from_set active_shape_key active_shape_key_index show_only_shape_key
         use_shape_key_edit_mode animation_data pose field soft_body rigid_body rigid_body_constraint collision
-        use_simulation_cache vertex_groups pass_index particle_systems
+        use_simulation_cache vertex_groups pass_index particle_systems lightgroup is_shadow_catcher
         """,
         parts="light_linking cycles",
         left_out=(
-            LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
             LeftOut(
                 "modifiers", _is_not_adaptive, "it is as fine as its modifier says", what="adaptive subdivision is"
             ),
             LeftOut("shadow_terminator_normal_offset", 0.0, "shadows begin where they do without"),
             LeftOut("shadow_terminator_shading_offset", 0.0, "shadows begin where they do without"),
         ),
-        # Light groups are passes, and colour and raycasts are for nodes that are reported themselves.
+        # Colour and raycasts are for nodes that are reported themselves.
         no_meaning="""
         bound_box use_camera_lock_parent active_material active_material_index dimensions lock_location lock_rotation
         lock_rotation_w lock_rotations_4d lock_scale grease_pencil_modifiers shader_effects face_maps empty_display_type
@@ -56,17 +53,12 @@ OBJECT = {
         add_rest_position_attribute color hide_viewport hide_select show_instancer_for_viewport
         display_type show_bounds display_bounds_type show_name show_axis
         show_texture_space show_wire show_all_edges use_grease_pencil_lights show_transparent show_in_front pose_library
-        use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z lightgroup
+        use_dynamic_topology_sculpting display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z
         animation_visualization motion_path hide_probe_volume hide_probe_sphere hide_probe_plane selection_sets
         active_selection_set shadow_terminator_geometry_offset hide_surface_pick@5.0 visible_raycast@5.2
         """,
     ),
-    "ObjectLightLinking": Table(
-        left_out=(
-            LeftOut("receiver_collection", None, "it shines on everything", what="light linking is"),
-            LeftOut("blocker_collection", None, "everything casts its shadows", what="shadow linking is"),
-        ),
-    ),
+    "ObjectLightLinking": Table(used="receiver_collection blocker_collection"),
     "CyclesObjectSettings": Table(
         left_out=(
             LeftOut(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .table import LeftOut, Table, is_empty
+from .table import LeftOut, Table
 
 
 def _is_simplified(cycles: Any) -> bool:
@@ -140,15 +140,14 @@ SCENE = {
         use_pass_glossy_color use_pass_transmission_direct use_pass_transmission_indirect use_pass_transmission_color
         use_pass_cryptomatte_object use_pass_cryptomatte_material use_pass_cryptomatte_asset pass_cryptomatte_depth
         use_pass_environment use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index use_motion_blur
+        aovs lightgroups use_pass_ambient_occlusion
         """,
         parts="cycles",
         left_out=(
             *_missing_passes("""
-                use_pass_vector use_pass_shadow use_pass_ambient_occlusion use_pass_subsurface_direct
+                use_pass_vector use_pass_shadow use_pass_subsurface_direct
                 use_pass_subsurface_indirect use_pass_subsurface_color
                 """),
-            LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
-            LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
         ),
         no_meaning="""
         pass_alpha_threshold eevee active_aov active_aov_index active_lightgroup active_lightgroup_index
@@ -158,10 +157,10 @@ SCENE = {
         """,
     ),
     "CyclesRenderLayerSettings": Table(
-        used="use_pass_volume_direct use_pass_volume_indirect denoising_store_passes",
+        used="use_pass_volume_direct use_pass_volume_indirect denoising_store_passes use_pass_shadow_catcher",
         left_out=(
             *_missing_passes("""
-                pass_debug_sample_count use_pass_shadow_catcher
+                pass_debug_sample_count
                 pass_render_time@5.0 use_pass_volume_scatter@5.0 use_pass_volume_transmit@5.0
                 use_pass_volume_majorant@5.0 denoising_store_motion_passes@5.3
                 """),

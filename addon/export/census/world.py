@@ -6,20 +6,18 @@ from .table import LeftOut, Table
 
 WORLD = {
     "World": Table(
-        used="color node_tree use_nodes mist_settings animation_data",
+        used="color node_tree use_nodes mist_settings animation_data lightgroup light_settings",
         parts="cycles cycles_visibility",
-        # EEVEE's sun, light group passes, and what fast GI takes.
+        # EEVEE's sun.
         no_meaning="""
-        light_settings lightgroup use_eevee_finite_volume probe_resolution sun_threshold sun_angle
+        use_eevee_finite_volume probe_resolution sun_threshold sun_angle
         use_sun_shadow sun_shadow_maximum_resolution sun_shadow_filter_radius use_sun_shadow_jitter
         sun_shadow_jitter_overblur
         """,
     ),
     "CyclesWorldSettings": Table(
-        left_out=(
-            LeftOut("max_bounces", 1024, "it lights every bounce"),
-            LeftOut("use_shadows@5.2", True, "it casts them", what="a world without shadows is"),
-        ),
+        used="max_bounces",
+        left_out=(LeftOut("use_shadows@5.2", True, "it casts them", what="a world without shadows is"),),
         # How it and its volume are sampled.
         no_meaning="""
         name is_caustics_light sampling_method sample_map_resolution homogeneous_volume volume_sampling
@@ -27,12 +25,7 @@ WORLD = {
         """,
     ),
     "CyclesVisibilitySettings": Table(
-        left_out=(
-            LeftOut("diffuse", True, "it lights diffuse surfaces too", what="Diffuse Visibility is"),
-            LeftOut("glossy", True, "it lights glossy surfaces too", what="Glossy Visibility is"),
-            LeftOut("scatter", True, "it lights fog too", what="Volume Scatter Visibility is"),
-        ),
-        used="camera",
-        no_meaning="name transmission shadow",
+        used="camera diffuse glossy transmission scatter",
+        no_meaning="name shadow",
     ),
 }

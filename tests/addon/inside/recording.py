@@ -149,6 +149,8 @@ class Recording:
 
 
 class Scene:
+    has_shadow_catchers = False
+
     def __init__(self) -> None:
         self.recording = recording = _recordings[-1]
         self.attributes: dict[str, int] = {}
@@ -190,6 +192,10 @@ class Scene:
         generated: Any = None,
         uv: Any = None,
         attributes: Any = None,
+        light_group: int = -1,
+        links: Any = (),
+        link_sets: Any = (),
+        shadow_catcher: bool = False,
     ) -> int:
         materials = [list(self.recording.materials)[material] for material in materials]
         self.recording.instances.append(
@@ -215,6 +221,7 @@ class Scene:
         has_surface: bool = True,
         pass_index: float = 0,
         matte: float = 0,
+        filters_shadows: bool = True,
     ) -> int:
         assert name not in self.recording.materials, f"material {name} came twice"
         self.recording.materials[name] = material
@@ -223,7 +230,15 @@ class Scene:
             self.recording.without_surface.add(name)
         return len(self.recording.materials) - 1
 
-    def add_light(self, name: str, light: Any, hidden_from: Sequence[str] = (), max_bounces: int = 1024) -> int:
+    def add_light(
+        self,
+        name: str,
+        light: Any,
+        hidden_from: Sequence[str] = (),
+        max_bounces: int = 1024,
+        light_group: int = -1,
+        links: Any = (),
+    ) -> int:
         self.recording.lights[name] = light
         self.recording.rules[name] = (list(hidden_from), max_bounces)
         return len(self.recording.lights) - 1
@@ -241,6 +256,11 @@ class Scene:
         self.recording.mesh_motions[id] = SimpleNamespace(
             positions=np.array(positions), corner_normals=corner_normals, vertex_normals=vertex_normals
         )
+    def set_world_light_group(self, light_group: int) -> None:
+        pass
+
+    def set_world_rules(self, hidden_from: Sequence[str] = (), max_bounces: int = 1024) -> None:
+        pass
 
     def set_world_medium(self, medium: Medium | None) -> None:
         self.recording.world_medium = medium
@@ -271,7 +291,11 @@ class Session:
 
     @staticmethod
     def bytes_per_pixel(
-        adaptive: bool, denoising_passes: bool, surface_passes: bool = False, mattes: bool = False
+        adaptive: bool,
+        denoising_passes: bool,
+        surface_passes: bool = False,
+        mattes: bool = False,
+        named_passes: int = 0,
     ) -> int:
         return 88
 

@@ -1,0 +1,52 @@
+"""What a picture shows where it has shadow catchers, as Cycles has it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .passes import SHADOW_CATCHER
+from .report import Reporter
+
+
+def catcher_values(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) -> dict[str, Any]:
+    """The argument of pivot_core.RenderSettings that shadow catchers take; none where there are none."""
+    if not core_scene.has_shadow_catchers:
+        return {}
+    if scene.pivot.integrator == "ANALYTIC":
+        reporter.warn(
+            f"scene '{scene.name}': in the analytic integrator shadow catchers are shown as they are. "
+            "Fix: use Monte Carlo"
+        )
+        return {}
+    if scene.pivot.denoise != "NONE":
+        reporter.warn(f"scene '{scene.name}': a picture with shadow catchers is not denoised")
+    return {"shadow_catchers": True}
+
+
+def catcher_passes(scene: bpy.types.Scene) -> int:
+    """How many colours of each pixel a film keeps for them."""
+    return 5 if any(each.is_shadow_catcher for each in scene.objects) else 0
+
+
+class CatcherReader:
+    """Reads the passes of a session that shadow catchers change."""
+
+    def __init__(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, are_told: bool) -> None:
+        self.are_told = are_told
+        has_pass = getattr(getattr(view_layer, "cycles", None), "use_pass_shadow_catcher", False)
+        self._picture = "NOTHING" if has_pass else "ALPHA" if scene.render.film_transparent else "WORLD"
+
+    def read(self, session: Any, name: str) -> NDArray[np.float32] | None:
+        """A pass by the core's name, None where it is another's."""
+        if name == SHADOW_CATCHER and not self.are_told:
+            return np.ones((session.height, session.width, 3), np.float32)
+        if not self.are_told or name not in {SHADOW_CATCHER, "Combined"}:
+            return None
+        values: NDArray[np.float32] = session.read_shadow_catchers(
+            "FACTOR" if name == SHADOW_CATCHER else self._picture
+        )
+        return values
