@@ -36,6 +36,7 @@ class Slots:
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
     is_filled: bool = False
+    shines: bool = False
 
     def ids_without_surface(self) -> tuple[int, ...]:
         """Of faces that all have none: what the other slots have does not count."""
@@ -58,6 +59,7 @@ class _Look:
 
     shader: Any  # the core's
     is_there: bool
+    shines: bool
     attributes: frozenset[str]
 
 
@@ -84,6 +86,7 @@ class MaterialTable:
             without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
             is_filled=any(volume is not None for volume in volumes),
+            shines=any(look.shines for look in looks),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:
@@ -136,7 +139,9 @@ class MaterialTable:
             self._warn_of_analytic(surface, owner)
             with naming(owner.name, "give its colours and numbers finite values"):
                 shader = surface.core_shader(self._context.core)
-            self._looks[key] = _Look(shader, is_there, frozenset(owner.program.attributes))
+            self._looks[key] = _Look(
+                shader, is_there, not surface.emission.is_always(0), frozenset(owner.program.attributes)
+            )
         return self._looks[key]
 
     def _volume(self, material: bpy.types.Material | None, interior: Interior) -> Volume | None:

@@ -35,6 +35,22 @@ Vec3f uv_of(const Scene& scene, int attribute, const RayHit& hit) {
     return sum;
 }
 
+/// Tells where in the picture a surface was when the shutter opened, and will be when it closes.
+void tell_motion(const Scene& scene, const RayHit& hit, SurfacePasses& pass) {
+    const auto pixel_at = [&](float time) {
+        RayHit then = hit;
+        then.time = time;
+        const HitTriangleOf<float> at = scene.hit_triangle(then);
+        const Vec2f& b = hit.barycentric;
+        const Vec3f place = at.corner_a + b.x * (at.corner_b - at.corner_a) + b.y * (at.corner_c - at.corner_a);
+        return scene.camera().pixel_at(at.world_from_object.point(place), time);
+    };
+    const Vec2f now = pixel_at(middle_time);
+    pass.from_before = now - pixel_at(0.0f);
+    pass.to_after = pixel_at(1.0f) - now;
+    pass.moving_weight = 1.0f;
+}
+
 std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings, std::span<const Ray> rays,
                               ProgramMemory& memory, std::span<SurfacePasses> passes) {
     std::vector<std::optional<RayHit>> hits(rays.size());
@@ -85,6 +101,7 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
 void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<const Ray> camera_rays,
                   std::span<SurfacePasses> passes, std::vector<SeenMatte>& mattes) {
     ProgramMemory memory;
+    const bool tells_motion = scene.moves() && !scene.camera().blurs;
     std::vector<Seen> seen = surfaces_on(scene, settings, camera_rays, memory, passes);
     std::ranges::stable_sort(seen, {}, [](const Seen& s) { return s.arrival.material; });
     const auto arrival_of = [](const Seen& s) -> const Arrival& { return s.arrival; };
@@ -108,7 +125,9 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 pass.glossy_color += s.worth * colors[i].glossy;
                 pass.transmission_color += s.worth * colors[i].transmission;
                 pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
-                if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
+                if (!s.is_told) continue;
+                pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
+                if (tells_motion) tell_motion(scene, s.arrival.hit, pass);
             }
         });
     std::ranges::stable_sort(mattes, {}, &SeenMatte::ray);

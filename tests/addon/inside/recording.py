@@ -258,6 +258,7 @@ class Scene:
         lens: Any,
         motion: Any = None,
         shutter: Any = None,
+        blurs: bool = True,
     ) -> None:
         camera = dict(locals())
         del camera["self"]
