@@ -140,6 +140,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     def _export(self, native: Any, depsgraph: bpy.types.Depsgraph, frame: Frame, known: Context | None) -> Context:
         """The scene and this view's camera. known: the scene as another view has it, None for the first."""
         shutter = None if self.is_preview else shutter_of(depsgraph.scene, depsgraph.view_layer)
+        shown = depsgraph.scene.frame_current
         with in_the_middle(self, depsgraph.scene, shutter):
             context = known
             if context is None:
@@ -147,7 +148,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
                 say = _say_nothing if self.is_preview else self.report
                 reporter = Reporter(say, self.said_in_job)
                 cache = self.preview_images if self.is_preview else self.images
-                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
+                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache, frame=shown)
             motion = None
             if shutter is not None:
                 motion = export_motion(context, self, shutter, self._check_cancel, only_camera=known is not None)

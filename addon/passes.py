@@ -79,6 +79,7 @@ PASSES = (
     _of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"),
     _of_surfaces("AO", "Ambient Occlusion", "RGB", "COLOR", "ambient_occlusion"),
     _of_surfaces("UV", "UV", "UVA", "VECTOR", "uv"),
+    _of_surfaces("Vector", "Vector", "XYZW", "VECTOR", "vector"),
     _of_surfaces("Mist", "Mist", "Z", "VALUE", "mist"),
     _of_surfaces("IndexOB", "Object Index", "X", "VALUE", "object_index"),
     _of_surfaces("IndexMA", "Material Index", "X", "VALUE", "material_index"),
@@ -154,7 +155,11 @@ def has_surface_passes(view_layer: bpy.types.ViewLayer) -> bool:
 
 
 def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reporter: Reporter) -> None:
-    """Say which passes of this view layer the integrator leaves black."""
+    """Say which passes of this view layer stay black."""
+    if view_layer.use_pass_vector and scene.render.use_motion_blur and view_layer.use_motion_blur:
+        reporter.warn(
+            f"view layer '{view_layer.name}': with Motion Blur its Vector pass is black. Fix: use one of the two"
+        )
     if scene.pivot.integrator == "ANALYTIC" and any(entry.is_light and entry.is_on(view_layer) for entry in PASSES):
         reporter.warn(
             f"view layer '{view_layer.name}': in the analytic integrator passes of direct and indirect light by "

@@ -206,7 +206,7 @@ void register_render(py::module_& module) {
             "lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, "
             "DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; "
             "these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute "
-            "uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.");
+            "uv_attribute; Vector, see set_camera; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.");
 }
 
 }  // namespace pivot::bindings

@@ -223,7 +223,7 @@ void set_mesh_motion(Scene& scene, std::uint32_t id, const std::vector<FloatArra
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
                 int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m,
                 const optional<Projection>& projection, const optional<Lens>& lens, const optional<FloatArray>& motion,
-                const optional<std::vector<float>>& shutter) {
+                const optional<std::vector<float>>& shutter, bool blurs) {
     require_shape(camera_to_world, "camera: camera_to_world", {4, 4});
     Camera camera;
     camera.world_from_camera = to_transform(camera_to_world.data());
@@ -238,6 +238,7 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
     camera.lens = lens.value_or(Lens{});
     if (motion) camera.motion = to_motion(*motion, "camera: motion");
     if (shutter) camera.shutter = std::make_shared<const Shutter>(*shutter);
+    camera.blurs = blurs;
     scene.set_camera(camera);
 }
 
@@ -436,13 +437,14 @@ void register_scene(py::module_& module) {
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
              py::arg("clip_end_m") = infinity, py::arg("projection") = py::none(), py::arg("lens") = py::none(),
-             py::arg("motion") = py::none(), py::arg("shutter") = py::none(),
+             py::arg("motion") = py::none(), py::arg("shutter") = py::none(), py::arg("blurs") = true,
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
              "frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, "
              "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. "
              "motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, "
              "at "
-             "even times; all the time unless that is given.");
+             "even times; all the time unless that is given. "
+             "Without blurs all is seen in the middle of that, and the Vector pass tells how it moves.");
 }
 
 }  // namespace pivot::bindings

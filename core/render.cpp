@@ -404,7 +404,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     const bool is_analytic = settings_.integrator == Integrator::analytic, has_lens = camera.lens.radius_m > 0.0f;
-    const bool moves = scene_->moves();
+    const bool blurs = scene_->moves() && camera.blurs;
     const std::uint32_t seed = is_analytic ? 0u : round.seed;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> indices;
@@ -424,7 +424,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
             const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
             indices.push_back(index);
             samplers.push_back(pixel_sampler(column, line, seed, pass.log2_samples, index));
-            const float time = moves ? camera.time(samplers.back().point(time_dimension).x) : middle_time;
+            const float time = blurs ? camera.time(samplers.back().point(time_dimension).x) : middle_time;
             rays.push_back(has_lens ? camera.ray(center + offsets[k], samplers.back().point(lens_dimension), time)
                                     : camera.ray(center + offsets[k], time));
         }

@@ -50,6 +50,7 @@ class CameraMotion:
 
     places: NDArray[np.float64] | None  # (S, 4, 4), at even times; None: it stays where it is
     openness: list[float] | None  # at even times; None: open all the time
+    blurs: bool  # False: it sees all in the middle
 
 
 def active_camera(context: Context, engine: bpy.types.RenderEngine) -> bpy.types.Object:
@@ -95,6 +96,7 @@ def export_camera(
             window=frame.window,
             motion=motion.places if motion else None,
             shutter=motion.openness if motion else None,
+            blurs=motion is None or motion.blurs,
             **optics.arguments(context.core),
         )
 

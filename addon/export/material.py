@@ -38,6 +38,7 @@ class Slots:
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
     is_filled: bool = False
+    shines: bool = False
 
     def of_mesh(self) -> frozenset[str]:
         """The attributes that are of meshes and curves."""
@@ -64,6 +65,7 @@ class _Look:
 
     shader: Any  # the core's
     is_there: bool
+    shines: bool
     attributes: frozenset[str]
     aovs: tuple[tuple[int, Any], ...]  # each by its place and the core's shader that emits its value
 
@@ -91,6 +93,7 @@ class MaterialTable:
             without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
             is_filled=any(volume is not None for volume in volumes),
+            shines=any(look.shines for look in looks),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:
@@ -151,7 +154,7 @@ class MaterialTable:
                 values = self._owner(material, user)  # with a program of its own: few rays ask it
                 aovs = self._aovs(material, values)
             attributes = frozenset(owner.program.attributes | values.program.attributes)
-            self._looks[key] = _Look(shader, is_there, attributes, aovs)
+            self._looks[key] = _Look(shader, is_there, not surface.emission.is_always(0), attributes, aovs)
         return self._looks[key]
 
     def _aovs(self, material: bpy.types.Material | None, owner: Owner) -> tuple[tuple[int, Any], ...]:

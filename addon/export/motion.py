@@ -1,5 +1,7 @@
 """What changes while the camera's shutter is open: where objects and the camera are, and how meshes deform.
 
+The Vector pass is made of the same, from the frame before to the frame after, where pictures are sharp.
+
 As in Cycles, lamps and what fills objects stay as they are in the middle of that.
 """
 
@@ -32,7 +34,8 @@ class Shutter:
 
     middle: float  # frames
     length: float  # frames
-    openness: list[float] | None  # at even times; None: all the time
+    openness: list[float] | None = None  # at even times; None: all the time
+    blurs: bool = True  # False: the picture is of the middle, and the rest for the Vector pass
 
     def frame_at(self, time: float) -> tuple[int, float]:
         """The frame, and the part of one after it."""
@@ -42,11 +45,13 @@ class Shutter:
 
 
 def shutter_of(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Shutter | None:
-    """None where pictures are sharp."""
-    render = scene.render
+    """None where nobody asks what moves."""
+    render, middle = scene.render, scene.frame_current + scene.frame_subframe
     if not (render.use_motion_blur and view_layer.use_motion_blur):
+        return Shutter(middle, 2.0, blurs=False) if view_layer.use_pass_vector else None
+    length = render.motion_blur_shutter
+    if length <= 0:
         return None
-    middle, length = scene.frame_current + scene.frame_subframe, render.motion_blur_shutter
     if hasattr(render, "motion_blur_position"):  # from Blender 4.1
         position = render.motion_blur_position
     else:
@@ -59,12 +64,23 @@ def shutter_of(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Shutt
     return Shutter(middle, length, None if min(openness) == max(openness) else openness)
 
 
-def step_count(blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> int:
-    """At how many times, even ones, it is looked at; 0: it is not blurred. [Cycles 4.5 blender/util.h]"""
-    all_settings = [each.cycles for each in (blender_object, instancer) if each is not None and hasattr(each, "cycles")]
-    if not all(settings.use_motion_blur for settings in all_settings):
-        return 0
-    return 2 ** max((settings.motion_steps for settings in all_settings), default=1) + 1
+@dataclass(frozen=True)
+class _Wish:
+    """How closely an object is looked at."""
+
+    steps: int  # at even times; 0: at none
+    deforms: bool
+
+
+def _wish_of(shutter: Shutter, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> _Wish:
+    """[Cycles 4.5 blender/util.h, object_motion_steps]"""
+    if not shutter.blurs:
+        return _Wish(3, True)
+    settings = [each.cycles for each in (blender_object, instancer) if each is not None and hasattr(each, "cycles")]
+    if not all(each.use_motion_blur for each in settings):
+        return _Wish(0, False)
+    steps = 2 ** max((each.motion_steps for each in settings), default=1) + 1
+    return _Wish(steps, all(each.use_deform_motion for each in settings))
 
 
 def times_of(steps: int) -> list[float]:
@@ -98,24 +114,34 @@ def export_motion(
     only_camera: the rest is known from another view.
     """
     camera = active_camera(context, engine)
-    camera_times = times_of(step_count(camera, None)) if step_count(camera, None) else []
-    places = {_MIDDLE: camera_place(context, engine, camera)}
-    objects = None if only_camera else _ObjectMotion(context, check_cancel)
+    steps = _wish_of(shutter, camera, None).steps
+    camera_times = times_of(steps) if steps else [_MIDDLE]
+    places, angles = {_MIDDLE: camera_place(context, engine, camera)}, {_angle_of(camera, context)}
+    objects = None if only_camera else _ObjectMotion(context, shutter, check_cancel)
     times = set(camera_times) | (objects.times if objects else set())
     try:
         for time in sorted(times - {_MIDDLE}):
             engine.frame_set(*shutter.frame_at(time))
             if time in camera_times:
                 places[time] = camera_place(context, engine, camera)
+                angles.add(_angle_of(camera, context))
             if objects:
                 objects.look(time)
     finally:
         engine.frame_set(*shutter.frame_at(_MIDDLE))
     if objects:
         objects.finish()
-    steps = np.stack([places[time] for time in camera_times or [_MIDDLE]])
-    moves = (steps != steps[0]).any() and np.isfinite(steps).all()
-    return CameraMotion(steps if moves else None, shutter.openness)
+    if len(angles) > 1:
+        context.reporter.warn(f"camera '{camera.name}': motion blur of its lens is not supported, its view is as wide")
+    way = np.stack([places[time] for time in camera_times])
+    moves = (way != way[0]).any() and np.isfinite(way).all()
+    return CameraMotion(way if moves else None, shutter.openness, shutter.blurs)
+
+
+def _angle_of(camera: bpy.types.Object, context: Context) -> float | None:
+    """How wide a view a perspective camera has."""
+    data = camera.evaluated_get(context.depsgraph).data
+    return data.angle if isinstance(data, bpy.types.Camera) and data.type == "PERSP" else None
 
 
 def _key(instance: bpy.types.DepsgraphObjectInstance) -> Key:
@@ -133,15 +159,15 @@ class _Moving:
     """An instance of the depsgraph."""
 
     steps: int
-    deforms: bool
     is_particle: bool
 
 
 class _ObjectMotion:
     """Of a scene that has been exported, in the middle of a shutter's time; `finish` tells the core."""
 
-    def __init__(self, context: Context, check_cancel: Callable[[], None]) -> None:
+    def __init__(self, context: Context, shutter: Shutter, check_cancel: Callable[[], None]) -> None:
         self._context = context
+        self._blurs = shutter.blurs
         self._check_cancel = check_cancel
         instances = context.depsgraph.object_instances
         exported = {index for indices, _ in context.placed.instances for index in indices}
@@ -155,14 +181,13 @@ class _ObjectMotion:
         for index, instance in enumerate(instances):
             blender_object = instance.object
             instancer = instance.parent if instance.is_instance else None
-            steps = step_count(blender_object, instancer) if index in exported else 0
-            if steps == 0:
+            wish = _wish_of(shutter, blender_object, instancer)
+            if index not in exported or wish.steps == 0:
                 continue
-            owners = [each for each in (blender_object, instancer) if each is not None and hasattr(each, "cycles")]
-            deforms = all(each.cycles.use_deform_motion for each in owners)
             self._indices[_key(instance)] = index
-            self._moving[index] = _Moving(steps, deforms, instance.is_instance and instance.particle_system is not None)
-            if index in with_mesh and deforms:
+            is_particle = instance.is_instance and instance.particle_system is not None
+            self._moving[index] = _Moving(wish.steps, is_particle)
+            if index in with_mesh and wish.deforms:
                 with edits_applied(blender_object) as mesh:
                     self._rest[index] = positions(mesh)
 
@@ -198,30 +223,35 @@ class _ObjectMotion:
 
     def finish(self) -> None:
         """Tell the core's scene; the depsgraph is in the middle of the time again."""
-        scene = self._context.scene
-        filled: set[int] = set()
+        scene, placed = self._context.scene, self._context.placed
         self._finish_meshes()
-        for indices, first in self._context.placed.instances:
+        moved: set[int] = set()
+        for indices, first in placed.instances:
             for offset, index in enumerate(indices):
                 moving = self._moving.get(index)
-                if index in self._gone:
+                if index in self._gone and self._blurs:
                     scene.remove_instance(first + offset)
                 elif moving is not None:
                     steps = np.stack([self._places[time][index] for time in times_of(moving.steps)])
                     if not (steps != steps[0]).any() or not np.isfinite(steps).all():
                         continue
-                    if index in self._context.placed.filled:
-                        filled.add(index)
-                    else:
+                    moved.add(index)
+                    if index not in placed.filled or not self._blurs:
                         scene.set_instance_motion(first + offset, np.ascontiguousarray(steps))
-        if filled:
-            self._report(filled)
+        if self._blurs and moved & (placed.filled | placed.shining):
+            self._report(moved)
 
-    def _report(self, filled: set[int]) -> None:
+    def _report(self, moved: set[int]) -> None:
+        placed, reporter = self._context.placed, self._context.reporter
+        is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
         for index, instance in enumerate(self._context.depsgraph.object_instances):
-            if index in filled:
-                self._context.reporter.warn(
-                    f"object '{instance.object.name}': motion blur of what has a volume is not supported, it is sharp"
+            name = f"object '{instance.object.name}'"
+            if index in moved & placed.filled:
+                reporter.warn(f"{name}: motion blur of what has a volume is not supported, it is sharp")
+            elif index in moved & placed.shining and is_analytic:
+                reporter.warn(
+                    f"{name}: in the analytic integrator it shines on others from where it is in the middle of the "
+                    "shutter's time. Fix: use Monte Carlo"
                 )
 
     def _finish_meshes(self) -> None:

@@ -55,6 +55,7 @@ class _Group:
     reads: frozenset[str]  # attributes that its materials ask for
     is_placed: bool  # what fills it is as its first instance has it
     is_filled: bool
+    shines: bool
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
 
 
@@ -69,6 +70,7 @@ def _group_of(
     mattes: Mattes,
     reads: frozenset[str] = frozenset(),
     is_filled: bool = True,
+    shines: bool = False,
 ) -> _Group:
     matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return _Group(
@@ -86,6 +88,7 @@ def _group_of(
         reads=reads,
         is_placed=is_placed,
         is_filled=is_filled,
+        shines=shines,
     )
 
 
@@ -105,14 +108,16 @@ def export_scene(
     cache: ImageCache | None = None,
     meshes: MeshCache | None = None,
     is_shown: Callable[[bpy.types.Object], bool] | None = None,
+    frame: int | None = None,
 ) -> Context:
     """Fill a new scene with the view layer's meshes, materials, lights and world; the camera is not set.
 
     check_cancel: called between objects, may raise. cache, meshes: of exports before and to come. is_shown: of an
-    evaluated object; None: all are. Keeps nothing of the depsgraph but in the Context returned. Raises RenderError
-    naming the object at fault.
+    evaluated object; None: all are. frame: that image sequences show; None: the depsgraph's. Keeps nothing of the
+    depsgraph but in the Context returned. Raises RenderError naming the object at fault.
     """
-    images = ImageTable(core, depsgraph.scene_eval.frame_current, cache or ImageCache())
+    shown = depsgraph.scene_eval.frame_current if frame is None else frame
+    images = ImageTable(core, shown, cache or ImageCache())
     scene = core.Scene() if meshes is None else core.Scene(meshes.shared)
     context = Context(core, scene, depsgraph, reporter, images)
     _report_settings(context)
@@ -272,6 +277,7 @@ class _Exporter:
                     self._context.mattes,
                     slots.attributes,
                     slots.is_filled,
+                    slots.shines,
                 )
                 for part, is_passed in parts
             ]
@@ -414,6 +420,8 @@ class _Exporter:
         self._context.placed.instances.append((indices, first))
         if group.is_filled:
             self._context.placed.filled.update(indices)
+        if group.shines:
+            self._context.placed.shining.update(indices)
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

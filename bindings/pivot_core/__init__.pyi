@@ -809,9 +809,10 @@ class Scene:
         lens: Lens | None = None,
         motion: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
         shutter: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None,
+        blurs: bool = True,
     ) -> None:
         """
-        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, at even times; all the time unless that is given.
+        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, at even times; all the time unless that is given. Without blurs all is seen in the middle of that, and the Vector pass tells how it moves.
         """
     def set_instance_materials(
         self,
@@ -956,7 +957,7 @@ class Session:
     def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
-        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
+        A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Vector, see set_camera; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
         """
     def read_mattes(
         self, kind: str, rank: typing.SupportsInt | typing.SupportsIndex

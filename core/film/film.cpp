@@ -69,6 +69,15 @@ void write_mist(const Pixel& pixel, const OwnSum&, const SurfacePixel& surfaces,
     *out = std::clamp(1.0f - surfaces.sum.nearness * pixel.samples.per_weight(), 0.0f, 1.0f);
 }
 
+/// Where it was, less where it is, and that less where it will be, of the surfaces alone. [Cycles 4.5
+/// kernel/geom/primitive.h, primitive_motion_vector]
+void write_vector(const Pixel&, const OwnSum&, const SurfacePixel& surfaces, float* out) {
+    const SurfacePasses& sum = surfaces.sum;
+    const float per_weight = sum.moving_weight > 0.0f ? 1.0f / sum.moving_weight : 0.0f;
+    const Vec2f before = -per_weight * sum.from_before, after = -per_weight * sum.to_after;
+    out[0] = before.x, out[1] = before.y, out[2] = after.x, out[3] = after.y;
+}
+
 void write_depth(const Pixel& pixel, const OwnSum&, const SurfacePixel&, float* out) { *out = pixel.center.depth_m; }
 
 /// The error predicted of an analytic pixel, relative to its radiance, or to least_radiance where it is darker: that of
@@ -121,6 +130,7 @@ constexpr Pass passes[] = {
     {"AO", 3, write_surfaces<&S::ambient_occlusion>, surface_passes},
     {"UV", 3, write_surfaces<&S::uv>, surface_passes},
     {"Mist", 1, write_mist, surface_passes},
+    {"Vector", 4, write_vector, surface_passes},
     {"IndexOB", 1,
      [](const Pixel&, const OwnSum&, const SurfacePixel& surfaces, float* out) { *out = surfaces.object_index; },
      surface_passes},

@@ -47,6 +47,9 @@ struct SurfacePasses {
     Rgb diffuse_color{0.0f}, glossy_color{0.0f}, transmission_color{0.0f};
     Vec3f uv{0.0f};         ///< the third is 1 on surfaces
     float nearness = 0.0f;  ///< how much the mist leaves of what is seen
+    // How far what is seen was from here, and will have come, in pixels: of a camera that does not blur motion.
+    Vec2f from_before{0.0f}, to_after{0.0f};
+    float moving_weight = 0.0f;  ///< 1 where the two are known
 };
 
 /// Errors of noise are relative to a pixel's radiance, or to this where it is darker.

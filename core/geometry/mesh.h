@@ -68,4 +68,7 @@ struct Mesh {
     }
 };
 
+/// Throws std::invalid_argument, which names the mesh, unless its steps are two or more, finite, and like the mesh.
+void require_steps(const Mesh& mesh);
+
 }  // namespace pivot

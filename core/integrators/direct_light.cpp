@@ -36,6 +36,18 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
     return result;
 }
 
+/// Has the lights that move stand where they are at the vertices' times. moved: what they then are.
+void move_lights(const Scene& scene, const VertexBatch& vertices, const LightPicks& picks, std::vector<Light>& moved,
+                 std::array<const Light*, batch_size>& lights) {
+    moved.reserve(batch_size);
+    const Lanes times = store(vertices.point.time);
+    for (std::size_t i = 0; i < vertices.count(); ++i) {
+        if (!scene.is_moving_light(picks.light[i])) continue;
+        moved.push_back(scene.light_at(picks.light[i], times[i]));
+        lights[i] = &moved.back();
+    }
+}
+
 /// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces whose
 /// lobes read tables, are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, std::uint32_t bounce,
@@ -44,14 +56,11 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
-    const Lanes times = store(vertices.point.time);
-    std::array<std::optional<Light>, batch_size> moved;
     std::array<const Light*, batch_size> lights;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const std::size_t place = picks.light[std::min(i, vertices.count() - 1)];
-        if (scene.is_moving_light(place)) moved[i] = scene.light_at(place, times[i]);
-        lights[i] = moved[i] ? &*moved[i] : &scene.light(place);
-    }
+    for (std::size_t i = 0; i < batch_size; ++i)
+        lights[i] = &scene.light(picks.light[std::min(i, vertices.count() - 1)]);
+    std::vector<Light> moved;
+    if (scene.moves()) move_lights(scene, vertices, picks, moved, lights);
     const Batch expected = load(picks.expected_samples);
     BatchMask left = expected > Batch(0.0f) && vertices.is_vertex();
     // BSDF samples that meet emissive meshes count whatever is there.

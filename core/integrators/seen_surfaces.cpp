@@ -127,6 +127,22 @@ Vec3f uv_of(const Scene& scene, int attribute, const RayHit& hit) {
     return sum;
 }
 
+/// Tells where in the picture a surface was when the shutter opened, and will be when it closes.
+void tell_motion(const Scene& scene, const Arrival& arrival, SurfacePasses& pass) {
+    const auto pixel_at = [&](float time) {
+        RayHit then = arrival.hit;
+        then.time = time;
+        const HitTriangleOf<float> at = scene.hit_triangle(then, arrival.direction);
+        const Vec2f& b = arrival.hit.barycentric;
+        const Vec3f place = at.corner_a + b.x * (at.corner_b - at.corner_a) + b.y * (at.corner_c - at.corner_a);
+        return scene.camera().pixel_at(at.world_from_object.point(place), time);
+    };
+    const Vec2f now = pixel_at(middle_time);
+    pass.from_before = now - pixel_at(0.0f);
+    pass.to_after = pixel_at(1.0f) - now;
+    pass.moving_weight = 1.0f;
+}
+
 std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings, std::span<const Ray> rays,
                               ProgramMemory& memory, std::span<SurfacePasses> passes, SeenValues& values) {
     std::vector<std::optional<RayHit>> hits(rays.size());
@@ -188,6 +204,7 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
     values.add(memory);
     if (passes.empty() && !settings.mattes) return;
     std::vector<OcclusionRay> occlusion_rays;
+    const bool tells_motion = scene.moves() && !scene.camera().blurs;
     std::ranges::stable_sort(seen, {}, [](const Seen& s) { return s.arrival.material; });
     const auto arrival_of = [](const Seen& s) -> const Arrival& { return s.arrival; };
     for_each_arrival_batch<Seen>(
@@ -212,7 +229,9 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
                 if (settings.occlusion_distance_m > 0.0f)
                     occlusion_rays.push_back(occlusion_ray(batch.point, i, samplers[s.ray], settings, s.ray, weight));
-                if (s.is_told) pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
+                if (!s.is_told) continue;
+                pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
+                if (tells_motion) tell_motion(scene, s.arrival, pass);
             }
         });
     add_occlusion(scene, settings, occlusion_rays, passes, memory);

@@ -44,6 +44,24 @@ LensRay lens_ray(const AnyPanorama& panorama, const Camera& camera, const Vec2f&
     return refracted(Vec3f(0.0f), on_lens, forward * camera.lens.focus_m, 1.0f);
 }
 
+/// Where it is seen, of a point in the projection's space.
+Vec2f place_of(const Perspective&, const Vec3f& point) { return Vec2f(point.x, point.y) / point.z; }
+Vec2f place_of(const Orthographic&, const Vec3f& point) { return {point.x, point.y}; }
+template <class AnyPanorama>
+Vec2f place_of(const AnyPanorama& panorama, const Vec3f& point) {
+    return panorama.place(normalize(point));
+}
+
+/// What takes directions of the projection's space to the camera's.
+Mat3<float> camera_from_space(const Projection& projection) {
+    return std::visit(
+        [](const auto& kind) {
+            return Mat3<float>(kind.in_camera(Vec3f(1.0f, 0.0f, 0.0f)), kind.in_camera(Vec3f(0.0f, 1.0f, 0.0f)),
+                               kind.in_camera(Vec3f(0.0f, 0.0f, 1.0f)));
+        },
+        projection);
+}
+
 bool sees(const Perspective&, const Vec2f&) { return true; }
 bool sees(const Orthographic&, const Vec2f&) { return true; }
 template <class AnyPanorama>
@@ -71,7 +89,7 @@ Vec2f Lens::sample_m(const Vec2f& u) const {
 Ray Camera::ray_from(const Vec2f& pixel, const Vec2f& lens_place_m, float time) const {
     const Vec2f place(lerp(left, right, pixel.x / static_cast<float>(width)),
                       lerp(bottom, top, pixel.y / static_cast<float>(height)));
-    const Transform placed = motion ? motion->at(time) : world_from_camera;
+    const Transform placed = placed_at(time);
     return std::visit(
         [&](const auto& kind) -> Ray {
             if (!sees(kind, place)) return {placed.translation, -placed.linear[2], 0.0f, 0.0f, time};
@@ -82,14 +100,17 @@ Ray Camera::ray_from(const Vec2f& pixel, const Vec2f& lens_place_m, float time) 
         projection);
 }
 
+Vec2f Camera::pixel_at(const Vec3f& point, float time) const {
+    const Vec3f in_camera = placed_at(time).inverse().point(point);
+    const Vec3f in_space = glm::transpose(camera_from_space(projection)) * in_camera;
+    const Vec2f place = std::visit([&](const auto& kind) { return place_of(kind, in_space); }, projection);
+    return {(place.x - left) / (right - left) * static_cast<float>(width),
+            (place.y - bottom) / (top - bottom) * static_cast<float>(height)};
+}
+
 CameraFacts Camera::facts() const {
-    const Mat3<float> camera_from_space = std::visit(
-        [](const auto& kind) {
-            return Mat3<float>(kind.in_camera(Vec3f(1.0f, 0.0f, 0.0f)), kind.in_camera(Vec3f(0.0f, 1.0f, 0.0f)),
-                               kind.in_camera(Vec3f(0.0f, 0.0f, 1.0f)));
-        },
-        projection);
-    const Transform world_from_space{world_from_camera.linear * camera_from_space, world_from_camera.translation};
+    const Transform world_from_space{world_from_camera.linear * camera_from_space(projection),
+                                     world_from_camera.translation};
     const Vec2f scale(1.0f / (right - left), 1.0f / (top - bottom));
     return {world_from_space, world_from_space.inverse(), projection, scale, Vec2f(-left, -bottom) * scale,
             clip_start_m};

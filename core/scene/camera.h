@@ -42,6 +42,7 @@ struct Camera {
     Transform world_from_camera;
     std::shared_ptr<const MovingTransform> motion{};  ///< of world_from_camera; null: it stays where it is
     std::shared_ptr<const Shutter> shutter{};         ///< null: open all the time
+    bool blurs = true;                                ///< false: it sees all in the middle of that alone
     Projection projection;
     Lens lens;
     float left = -1, right = 1, bottom = -1, top = 1;  ///< the full frame, in places of the projection
@@ -59,6 +60,8 @@ struct Camera {
     }
     /// When it takes a sample. u in [0, 1).
     float time(float u) const { return shutter ? shutter->time(u) : u; }
+    /// Where in the full frame it sees a point at a time, in pixels, through the middle of the lens.
+    Vec2f pixel_at(const Vec3f& point, float time) const;
 
     /// What shaders ask of it.
     CameraFacts facts() const;
@@ -70,6 +73,7 @@ struct Camera {
     float depth_m(const Vec3f& point) const;
 
    private:
+    Transform placed_at(float time) const { return motion ? motion->at(time) : world_from_camera; }
     Ray ray_from(const Vec2f& pixel, const Vec2f& lens_place_m, float time) const;
 };
 

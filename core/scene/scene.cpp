@@ -53,22 +53,6 @@ void require_valid(const Mesh& mesh) {
     check_normals(mesh.vertex_normals, "vertex");
 }
 
-/// Steps have as much of all as the mesh.
-void require_steps(const Mesh& mesh) {
-    const auto is_like_mesh = [&](const MeshStep& step) {
-        return step.positions.size() == mesh.positions.size() &&
-               step.corner_normals.size() == mesh.corner_normals.size() &&
-               step.vertex_normals.size() == mesh.vertex_normals.size();
-    };
-    if (mesh.steps.size() < 2 || mesh.steps.size() > MovingTransform::max_steps ||
-        !std::ranges::all_of(mesh.steps, is_like_mesh))
-        throw std::invalid_argument("mesh '" + mesh.name +
-                                    "': its motion needs 2 to 129 steps of as many vertices and corners as it has");
-    for (const MeshStep& step : mesh.steps)
-        if (!std::ranges::all_of(step.positions, is_finite))
-            throw std::invalid_argument("mesh '" + mesh.name + "': a vertex is not finite as it moves");
-}
-
 void require_valid(const std::string& name, const Material& material) {
     const auto valid = [](const Rgb& c) { return is_finite(c) && std::min({c.x, c.y, c.z}) >= 0.0f; };
     if (!valid(material.diffuse) || !valid(material.conductor_f0) || !valid(material.conductor_f90) ||
@@ -354,27 +338,6 @@ void Scene::commit() {
     commit_triangle_lights();
     commit_light_rules();
     is_committed_ = true;
-}
-
-bool Scene::is_moving(std::uint32_t instance) const {
-    const auto& present = instances_[instance];
-    return present && (present->motion || !meshes_[present->mesh]->steps.empty());
-}
-
-void Scene::commit_motion() {
-    moves_ = camera_.motion != nullptr;
-    for (std::uint32_t i = 0; i < instances_.size() && !moves_; ++i) moves_ = is_moving(i);
-}
-
-Light Scene::light_at(std::size_t place, float time) const {
-    if (!is_moving_light(place)) return light(place);
-    const auto [id, triangle] = scene_triangles_[place - lamps_.size()];
-    const HitTriangleOf<float> at = triangle_at(*instances_[id], *meshes_[instances_[id]->mesh], triangle, time);
-    const Transform& world = at.world_from_object;
-    const auto moved =
-        make_triangle_light({world.point(at.corner_a), world.point(at.corner_b), world.point(at.corner_c)},
-                            std::get<AreaLight>(light(place)).radiance);
-    return moved ? *moved : light(place);
 }
 
 void Scene::commit_visibility() {

@@ -25,7 +25,7 @@ def read_passes(path: Path) -> dict[str, NDArray[np.float32]]:
             for name, channel in part.channels.items():
                 group, _, component = name.rpartition(".")
                 grouped.setdefault(f"{group}.{view}" if view else group, {})[component] = np.array(channel.pixels)
-    order = "RGBAXYZUV"
+    order = "RGBAXYZWUV"
     return {
         group: np.stack([parts[c] for c in sorted(parts, key=lambda c: order.index(c.upper()))], axis=-1)
         for group, parts in grouped.items()

@@ -140,12 +140,12 @@ SCENE = {
         use_pass_glossy_color use_pass_transmission_direct use_pass_transmission_indirect use_pass_transmission_color
         use_pass_cryptomatte_object use_pass_cryptomatte_material use_pass_cryptomatte_asset pass_cryptomatte_depth
         use_pass_environment use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index use_motion_blur
-        aovs lightgroups use_pass_ambient_occlusion
+        aovs lightgroups use_pass_ambient_occlusion use_pass_vector
         """,
         parts="cycles",
         left_out=(
             *_missing_passes("""
-                use_pass_vector use_pass_shadow use_pass_subsurface_direct
+                use_pass_shadow use_pass_subsurface_direct
                 use_pass_subsurface_indirect use_pass_subsurface_color
                 """),
         ),

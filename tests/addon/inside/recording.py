@@ -278,6 +278,7 @@ class Scene:
         lens: Any,
         motion: Any = None,
         shutter: Any = None,
+        blurs: bool = True,
     ) -> None:
         camera = dict(locals())
         del camera["self"]
