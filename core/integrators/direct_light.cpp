@@ -5,6 +5,7 @@
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
+#include "core/integrators/world_sampling.h"
 
 namespace pivot {
 namespace {
@@ -159,23 +160,6 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     samples.radiance = samples.radiance * Vec3b(load(r), load(g), load(b));
 }
 
-/// A sample of the world's light by each vertex.
-LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
-                                  const BouncePlan& plan, Registers& registers) {
-    const Environment& environment = scene.environment();
-    const Vec3b wi = environment.sample(vertices.sampler.point(plan.dimensions.world()));
-    const Vec3b wi_local = vertices.point.frame.to_local(wi);
-    const Batch pdf = environment.pdf_omega(wi);
-    const Batch weight =
-        strategy == LightSampling::light ? Batch(1.0f) : balance(pdf, pdf_omega(vertices.surface, wi_local));
-    // One bounce on, as a BSDF sample would meet it.
-    const Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
-    return {.radiance = select(vertices.is_open_to(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
-                               Vec3b(Batch(0.0f))),
-            .wi = wi,
-            .reach_m = std::numeric_limits<Batch>::infinity()};
-}
-
 /// Calls visit(LightSampleOf<Batch>, shadow rays, BatchMask) with each round of the vertices' light samples; the mask:
 /// whose light comes through what is in its way.
 template <class Visit>
@@ -191,8 +175,10 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
               is_open);
     };
     const BatchMask none(false);
-    if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none);
+    if (!scene.environment().is_dark() && strategy != LightSampling::bsdf) {
+        const WorldSampler world(scene, strategy, plan, vertices);
+        for (std::uint32_t k = 0; k < world.rays(); ++k) visit_with_rays(world.sample(k, memory.registers), none);
+    }
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;

@@ -7,6 +7,7 @@
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
 #include "core/integrators/straight_paths.h"
+#include "core/integrators/world_sampling.h"
 
 namespace pivot {
 namespace {
@@ -69,14 +70,15 @@ float emission_weight(const Work& work, std::uint32_t bounce, const VertexBatch&
                        lights.expected_samples(lane, *index), bsdf_pdf_omega);
 }
 
-/// The world's light that BSDF samples meet, weighted where it is sampled too.
+/// The world's light that BSDF samples meet on their way to a bounce, weighted where it is sampled too.
 Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, const WordBatch& ray_kind,
                 std::uint32_t bounce) {
     const Environment& environment = work.scene.environment();
     const Vec3b radiance = world_radiance(work.scene.world_view(), wi, ray_kind, bounce, work.memory.registers);
     if (environment.is_dark() || work.settings.light_sampling == LightSampling::bsdf) return radiance;
     if (work.settings.light_sampling == LightSampling::light) return Vec3b(Batch(0.0f));
-    return radiance * balance(bsdf_pdf_omega, environment.pdf_omega(wi));
+    const auto samples = static_cast<float>(WorldPlan::at(bounce - 1).candidates);
+    return radiance * balance(bsdf_pdf_omega, Batch(samples) * environment.pdf_omega(wi));
 }
 
 /// Up to a batch of paths at their vertices.
