@@ -5,6 +5,7 @@
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
+#include "core/integrators/world_sampling.h"
 
 namespace pivot {
 namespace {
@@ -175,28 +176,15 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     samples.radiance = samples.radiance * Vec3b(load(r), load(g), load(b));
 }
 
-/// A sample of the world's light by each vertex.
-LightSampleOf<Batch> sample_world(const Scene& scene, LightSampling strategy, const VertexBatch& vertices,
-                                  const BouncePlan& plan, Registers& registers) {
-    const Environment& environment = scene.environment();
-    const Vec3b wi = environment.sample(vertices.sampler.point(plan.dimensions.world()));
-    const Vec3b wi_local = vertices.point.frame.to_local(wi);
-    const Batch pdf = environment.pdf_omega(wi);
-    const Batch weight =
-        strategy == LightSampling::light ? Batch(1.0f) : balance(pdf, pdf_omega(vertices.surface, wi_local));
-    // One bounce on, as a BSDF sample would meet it.
-    Vec3b light = world_radiance(scene.world_view(), wi, WordBatch(diffuse_ray), plan.bounce + 1, registers);
-    if (scene.has_world_rules()) {
-        const Lanes x = store(wi_local.x), y = store(wi_local.y), z = store(wi_local.z);
-        light = light * gather_vector([&](std::size_t i) {
-                    if (i >= vertices.count() || plan.bounce > scene.world_rules().max_bounces) return Rgb(0.0f);
-                    return lit_share(scene.world_rules(), vertices.lane(i).surface, {x[i], y[i], z[i]});
-                });
-    }
-    return {.radiance = select(vertices.is_open_to(wi), eval(vertices.surface, wi_local) * light * (weight / pdf),
-                               Vec3b(Batch(0.0f))),
-            .wi = wi,
-            .reach_m = std::numeric_limits<Batch>::infinity()};
+/// Leaves of samples of the world what its rules say.
+void obey_world_rules(const Scene& scene, std::uint32_t bounce, const VertexBatch& vertices,
+                      LightSampleOf<Batch>& samples) {
+    const Vec3b wi_local = vertices.point.frame.to_local(samples.wi);
+    const Lanes x = store(wi_local.x), y = store(wi_local.y), z = store(wi_local.z);
+    samples.radiance = samples.radiance * gather_vector([&](std::size_t i) {
+                           if (i >= vertices.count() || bounce > scene.world_rules().max_bounces) return Rgb(0.0f);
+                           return lit_share(scene.world_rules(), vertices.lane(i).surface, {x[i], y[i], z[i]});
+                       });
 }
 
 /// Of a batch of shadow rays those to lights that have blockers of their own, and what is left along them.
@@ -236,8 +224,14 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
               is_open, of_lights);
     };
     const BatchMask none(false);
-    if (!scene.environment().is_dark() && strategy != LightSampling::bsdf)
-        visit_with_rays(sample_world(scene, strategy, vertices, plan, memory.registers), none, nullptr);
+    if (!scene.environment().is_dark() && strategy != LightSampling::bsdf) {
+        const WorldSampler world(scene, strategy, plan, vertices);
+        for (std::uint32_t k = 0; k < world.rays(); ++k) {
+            LightSampleOf<Batch> samples = world.sample(k, memory.registers);
+            if (scene.has_world_rules()) obey_world_rules(scene, plan.bounce, vertices, samples);
+            visit_with_rays(samples, none, nullptr);
+        }
+    }
     const std::span<const LightPicks> picks = lights.picks();
     for (std::size_t k = 0; k < picks.size(); ++k) {
         const std::size_t place = k < plan.lamp_samples ? k : max_lamp_samples + k - plan.lamp_samples;

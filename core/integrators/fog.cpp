@@ -177,7 +177,7 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     if (const Environment& environment = scene.environment();
         !environment.is_dark() && is_lit_by_world && bounce <= scene.world_rules().max_bounces) {
         const Vec2f u = sampler.point(dimensions.world());
-        const Vec3b sampled = environment.sample({Batch(u.x), Batch(u.y)});
+        const Vec3b sampled = environment.sample({Batch(u.x), Batch(u.y)}).wi;
         const Vec3f wi(store(sampled.x)[0], store(sampled.y)[0], store(sampled.z)[0]);
         add(wi, std::numeric_limits<float>::infinity(),
             world_radiance(scene.world_view(), wi, diffuse_ray, bounce + 1, work_.memory.registers),

@@ -2,6 +2,7 @@
 
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
+#include "core/integrators/world_sampling.h"
 
 namespace pivot {
 namespace {
@@ -107,7 +108,8 @@ Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, 
     }
     if (environment.is_dark() || work.settings.light_sampling == LightSampling::bsdf) return radiance;
     if (work.settings.light_sampling == LightSampling::light) return Vec3b(Batch(0.0f));
-    return radiance * balance(bsdf_pdf_omega, environment.pdf_omega(wi));
+    const auto samples = static_cast<float>(WorldPlan::at(bounce - 1).candidates);
+    return radiance * balance(bsdf_pdf_omega, Batch(samples) * environment.pdf_omega(wi));
 }
 
 bool counts_where_it_is_met(const Scene& scene, const RayHit& hit, std::uint32_t instance) {

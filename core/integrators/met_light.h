@@ -23,7 +23,7 @@ Rgb shining_past_others_met(const Work& work, Fog* fog, std::uint32_t bounce, co
                             const VertexBatch& vertices, const VertexLights& lights, std::size_t lane, const Ray& from,
                             std::uint32_t ray_kind, float bsdf_pdf_omega);
 
-/// The world's light, weighted where it is sampled too.
+/// The world's light on the way to a bounce, weighted where it is sampled too.
 Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, const WordBatch& ray_kind,
                 std::uint32_t bounce);
 

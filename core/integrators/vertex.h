@@ -27,6 +27,8 @@ struct Dimensions {
     std::uint32_t direction() const { return base + 1; }
     std::uint32_t light_choice() const { return base + 2; }
     std::uint32_t world() const { return base + 3 + max_light_samples; }
+    /// Counted from the other end.
+    std::uint32_t world_choice() const { return ~base; }
     std::uint32_t light_place(std::size_t light_sample) const {
         return base + 3 + static_cast<std::uint32_t>(light_sample);
     }

@@ -2,12 +2,18 @@
 // z and its columns in azimuth, so that a cell's density is its share over its size.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/simd/batch.h"
 
 namespace pivot {
+
+struct EnvironmentSample {
+    Vec3b wi;
+    Batch pdf_omega;
+};
 
 class Environment {
    public:
@@ -22,16 +28,19 @@ class Environment {
     bool is_dark() const { return row_sums_.empty(); }
 
     /// u in [0, 1)^2; every direction has a chance.
-    Vec3b sample(const Vec2b& u) const;
+    EnvironmentSample sample(const Vec2b& u) const;
     Batch pdf_omega(const Vec3b& direction) const;
 
     /// The direction of a place of the map, x and y in [0, 1].
     static Vec3b direction(const Vec2b& place);
 
    private:
+    static constexpr std::uint32_t guide_steps = 1024;
+
     std::vector<float> row_sums_;     ///< up to each row, then 1
     std::vector<float> column_sums_;  ///< of each row likewise, columns + 1 numbers
-    std::vector<float> pdf_omega_;    ///< of each cell
+    // For each step of u from 0 to 1, the last of the sums that are no larger.
+    std::vector<std::uint16_t> row_guide_, column_guide_;
 };
 
 }  // namespace pivot
