@@ -10,7 +10,7 @@ from .highlight import share
 from .program import Program, Value
 
 _COLOURS = ("reflection", "transmission")
-_VALUES = (*_COLOURS, "weight", "f0_tint", "alpha", "ior", "fresnel")
+_VALUES = (*_COLOURS, "weight", "f0_tint", "alpha", "ior", "fresnel", "film_ior", "film_nm")
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,8 @@ class Dielectric:
     ior: Value
     fresnel: Value
     weight: Value
+    film_ior: Value
+    film_nm: Value
     multiscatter: bool = False
 
     @staticmethod
@@ -38,6 +40,8 @@ class Dielectric:
             "ior": program.number(1.5),
             "fresnel": one,
             "weight": one,
+            "film_ior": one,
+            "film_nm": program.number(0.0),
         }
         return Dielectric(**(defaults | given))
 
@@ -51,7 +55,7 @@ class Dielectric:
         return "dielectric", values, {"multiscatter": float(self.multiscatter)}
 
     def _shape(self) -> tuple[Value | bool, ...]:
-        return self.f0_tint, self.alpha, self.ior, self.fresnel, self.multiscatter
+        return self.f0_tint, self.alpha, self.ior, self.fresnel, self.film_ior, self.film_nm, self.multiscatter
 
 
 def as_few(dielectrics: Iterable[Dielectric]) -> tuple[Dielectric, ...]:

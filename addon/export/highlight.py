@@ -10,12 +10,12 @@ from .program import Program, Value
 
 @dataclass(frozen=True)
 class Highlight:
-    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, which says what they are.
+    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h or thin_film.h, which say what they are.
 
     curve: what its microfacets reflect, of the lobe that `kind` names. normal: world space; None: the surface's.
     """
 
-    kind: str  # "anisotropic" or "conductor"
+    kind: str  # "anisotropic", "conductor" or "thin_film"
     curve: tuple[tuple[str, Value], ...]
     color: Value
     alpha_x: Value
@@ -43,6 +43,9 @@ class Highlight:
             less, more, k2 = values["n"] - 1.0, values["n"] + 1.0, values["k"] * values["k"]
             f0 = (less * less + k2) / (more * more + k2)
             return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}
+        if self.kind == "thin_film":
+            bare = {"dielectric_weight": part, "dielectric_ior": values["ior"]}
+            return bare | {"dielectric_tint": values["f0_tint"] * hue(self.color)}
         scaled = dict.fromkeys(("conductor_f0", "conductor_f90", "conductor_dip"), self.color)
         scaled |= {"conductor_weight": part, "dielectric_weight": part, "dielectric_tint": hue(self.color)}
         return {name: value * scaled[name] if name in scaled else value for name, value in values.items()}

@@ -192,6 +192,8 @@ class MaterialTable:
             left_out.append("its triangles light others by a mean of each, in grey")
         if any(_is_frosted(dielectric) for dielectric in surface.dielectrics):
             left_out.append("lamps do not shine through its rough glass")
+        if any(not dielectric.film_nm.is_always(0) for dielectric in surface.dielectrics):
+            left_out.append("lamps are mirrored by its glass without the thin film")
         if any(lobe.kind == "subsurface" for lobe in surface.lobes):
             left_out.append("what is scattered beneath its surface comes out where it entered, as from a diffuse one")
         for what in left_out:

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import bpy
 
 from . import cloth, subsurface
 from .census import INPUTS
 from .dielectric import Dielectric
+from .film import Film
 from .hair import principled_hair
 from .highlight import Highlight, f82, sides, sides_of_glossy
 from .layers import beneath_dielectric, brushed, coated, rotation
@@ -192,7 +194,9 @@ def _refraction(feed: Socket, owner: Owner) -> Surface:
 
 
 def _boundary(feed: Socket, owner: Owner, **given: Value | bool) -> Surface:
-    dielectric = Dielectric.of(owner.program, alpha=_alpha(feed, owner), ior=_any_ior(feed, owner), **given)
+    film = Film.of(feed, owner)
+    above = {} if film is None else film.on_dielectric()
+    dielectric = Dielectric.of(owner.program, alpha=_alpha(feed, owner), ior=_any_ior(feed, owner), **above, **given)
     return Surface.of(owner.program, dielectrics=(dielectric,), normal=normal(feed, owner))
 
 
@@ -222,18 +226,23 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
     glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
     opaque = (1.0 - metallic) * (1.0 - glass)
+    film = Film.of(feed, owner)
+    if film is not None and bpy.app.version >= (5, 0) and not metallic.is_always(0):
+        owner.warn(feed.node, "a thin film on metal is not supported, it is left out there")
+    is_bare = film is None and not ior.is_always(1)
     curve = f82(f0, edge_tint, metallic) | {
-        "dielectric_weight": owner.program.number(0.0) if ior.is_always(1) else opaque,
+        "dielectric_weight": opaque if is_bare else owner.program.number(0.0),
         "dielectric_ior": ior,
         "dielectric_tint": tint,
     }
     whole = Surface.of(
         owner.program,
-        **_principled_diffuse(feed, owner, base, opaque, ior, tint),
+        **_principled_diffuse(feed, owner, base, opaque, ior, tint, film),
         alpha=_alpha(feed, owner),
         **curve,
         weight=metallic + opaque,
-        dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass),
+        dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass, film),
+        **({} if film is None else _filmed(feed, owner, film, ior, tint, opaque)),
         multiscatter=_multiscatter(feed, owner),
         emission=_emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
@@ -247,8 +256,20 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
     return added(whole.scaled(opacity), _let_through(1.0 - opacity))[0]
 
 
+def _filmed(feed: Socket, owner: Owner, film: Film, ior: Value, tint: Value, opaque: Value) -> dict[str, Any]:
+    """Principled's highlight beneath a thin film."""
+    if opaque.is_always(0):
+        return {}
+    turns, multiscatter = rotation(feed, owner), _multiscatter(feed, owner)
+    highlight = film.highlight(feed, owner, _alpha(feed, owner), turns, ior, tint, opaque, multiscatter)
+    return {
+        "highlights": (highlight,),
+        "tangent": tangent(feed, owner) if highlight.is_anisotropic else None,
+    }
+
+
 def _principled_diffuse(
-    feed: Socket, owner: Owner, base: Value, opaque: Value, ior: Value, tint: Value
+    feed: Socket, owner: Owner, base: Value, opaque: Value, ior: Value, tint: Value, film: Film | None
 ) -> dict[str, Value | tuple[Lobe, ...]]:
     """What Principled has of a diffuse lobe, and beneath it: before Blender 4.0 Disney's, of which the highlight takes
     no share."""
@@ -264,21 +285,22 @@ def _principled_diffuse(
         return {"lobes": (lobe, *sheen)}
     target, above = feed.find_input("Diffuse Roughness"), 1.0 - beneath
     is_rough = not (target is None or is_constant(target, 0.0) or above.is_always(0))
-    left = owner.program.number(1.0)
-    if (is_rough or not beneath.is_always(0)) and not ior.is_always(1):
-        turned, multiscatter = normal(feed, owner), _multiscatter(feed, owner)
-        left, _ = beneath_dielectric(owner.program, turned, _alpha(feed, owner), ior, tint, multiscatter)
+    left, multiscatter = owner.program.number(1.0), _multiscatter(feed, owner)
+    if film is not None:
+        left = film.beneath(feed, owner, _alpha(feed, owner), ior, tint, multiscatter)
+    elif (is_rough or not beneath.is_always(0)) and not ior.is_always(1):
+        left, _ = beneath_dielectric(owner.program, normal(feed, owner), _alpha(feed, owner), ior, tint, multiscatter)
     lobes = []
     if not beneath.is_always(0):
         weight = base.at_most(1.0) * beneath * opaque * left
         lobes.append(subsurface.of_principled(feed, owner, base, weight, beneath, ior))
-    if not is_rough:
-        return {"diffuse": base * (opaque * above), "lobes": tuple(lobes)}
+    if not is_rough:  # the base's own highlight takes its share by itself
+        return {"diffuse": base * (opaque * above) * (1.0 if film is None else left), "lobes": tuple(lobes)}
     rough = cloth.rough_diffuse(base * (opaque * above) * left, base, number(target, owner).clamped())
     return {"lobes": (*lobes, rough)}
 
 
-def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
+def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value, film: Film | None) -> tuple[Dielectric, ...]:
     """What of Principled is glass: light passes two boundaries, each takes the root of the colour. [Cycles 4.5
     svm/closure.h]
 
@@ -292,8 +314,9 @@ def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tup
         f0_tint = program.mixed(number(feed.input("Specular Tint"), owner), white, base)
     alpha = _alpha(feed, owner)
     ior = _any_ior(feed, owner)
+    above = {} if film is None else film.on_dielectric()
     whole = Dielectric.of(
-        program, transmission=base.root(), f0_tint=f0_tint, alpha=alpha, ior=ior, multiscatter=multiscatter
+        program, transmission=base.root(), f0_tint=f0_tint, alpha=alpha, ior=ior, multiscatter=multiscatter, **above
     ).scaled(weight)
     further = feed.find_input("Transmission Roughness")
     if further is None or multiscatter or is_constant(further, 0.0):

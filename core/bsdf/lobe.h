@@ -16,6 +16,7 @@
 #include "core/bsdf/lobes/sheen.h"
 #include "core/bsdf/lobes/subsurface.h"
 #include "core/bsdf/lobes/tabulated.h"
+#include "core/bsdf/lobes/thin_film.h"
 #include "core/bsdf/lobes/translucent.h"
 #include "core/bsdf/lobes/velvet.h"
 #include "core/bsdf/material.h"
@@ -23,8 +24,9 @@
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
-                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>>;
+using LobeKinds =
+    std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>, Conductor<T>,
+               OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>, ThinFilm<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>

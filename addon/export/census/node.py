@@ -131,10 +131,8 @@ INPUTS = {
         "Anisotropic, Anisotropic Rotation, Tangent, Coat Weight, Coat Roughness, Coat IOR, Coat Tint, Coat Normal,"
         "Clearcoat, Clearcoat Roughness, Clearcoat Normal, Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint,"
         "Sheen Roughness, Subsurface Weight, Subsurface, Subsurface Radius, Subsurface Color, Subsurface Scale,"
-        "Subsurface IOR, Subsurface Anisotropy",
-        left_out=(("Thin Film Thickness", 0.0),),
-        no_meaning="Thin Wall@5.2,"
-        "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
+        "Subsurface IOR, Subsurface Anisotropy, Thin Film Thickness, Thin Film IOR",
+        no_meaning="Thin Wall@5.2,Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
@@ -157,9 +155,8 @@ INPUTS = {
         no_meaning="Weight, Thin Film IOR@5.0",
     ),
     "ShaderNodeBsdfGlass": Inputs(
-        "Color, Roughness, IOR, Normal",
-        left_out=_THIN_FILM,
-        no_meaning="Weight, Thin Film IOR@5.0, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
+        "Color, Roughness, IOR, Normal, Thin Film Thickness@5.0, Thin Film IOR@5.0",
+        no_meaning="Weight, Anisotropy@5.3, Rotation@5.3, Tangent@5.3",
     ),
     "ShaderNodeBsdfRefraction": Inputs("Color, Roughness, IOR, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfTransparent": Inputs("Color", no_meaning="Weight"),

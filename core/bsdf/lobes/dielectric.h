@@ -12,6 +12,7 @@
 
 #include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
+#include "core/bsdf/thin_film.h"
 #include "core/tables/ggx_albedo.h"
 #include "core/tables/ggx_glass.h"
 
@@ -28,9 +29,14 @@ struct Dielectric {
         T fresnel = T(1);            ///< 1: what is not reflected comes through; 0: all that can, reflection or not
         T multiscatter = T(0);       ///< 1: give back what single scattering loses between microfacets; 0: do not
         T weight = T(1);             ///< the share of the surface that it is, multiplied into both colours
+        T film_ior = T(1.33f);       ///< of a thin film on it, over that before the surface's front
+        T film_nm = T(0);            ///< the film's thickness
 
         /// As it is seen from behind, where that is so.
-        void turn_over(const Mask<T>& is_behind) { ior = select(is_behind, T(1) / ior, ior); }
+        void turn_over(const Mask<T>& is_behind) {
+            film_ior = select(is_behind, film_ior / ior, film_ior);
+            ior = select(is_behind, T(1) / ior, ior);
+        }
     };
     static constexpr std::string_view name = "dielectric";
     static constexpr float most = std::numeric_limits<float>::max();
@@ -38,13 +44,15 @@ struct Dielectric {
         LobeParameter{"reflection", 3, 0.0f, most},   LobeParameter{"transmission", 3, 0.0f, most},
         LobeParameter{"f0_tint", 3, 0.0f, most},      LobeParameter{"alpha", 1, 0.0f, 1.0f},
         LobeParameter{"ior", 1, 1e-5f, most},         LobeParameter{"fresnel", 1, 0.0f, 1.0f},
-        LobeParameter{"multiscatter", 1, 0.0f, 1.0f}, LobeParameter{"weight", 1, 0.0f, most}};
+        LobeParameter{"multiscatter", 1, 0.0f, 1.0f}, LobeParameter{"weight", 1, 0.0f, most},
+        LobeParameter{"film_ior", 1, 1e-5f, most},    LobeParameter{"film_nm", 1, 0.0f, most}};
     static constexpr bool reflects = true, transmits = true, has_closed_form = true;
 
     Vec3<T> reflection, transmission, f0_tint;
     T alpha, eta;  ///< eta: index of refraction on the other side of the viewer's, over that on the viewer's
     T fresnel;
     Vec3<T> reflected, refracted;  ///< albedo, by the side that the light comes from
+    ThinFilmOf<T> film;
 
     static Dielectric seen(const Parameters& material, const Vec3<T>& wo_local) {
         const T one(1), alpha = min(max(material.alpha, T(min_alpha)), one), eta = distinct(material.ior);
@@ -57,7 +65,8 @@ struct Dielectric {
                         .eta = eta,
                         .fresnel = material.fresnel,
                         .reflected = Vec3<T>(T(0)),
-                        .refracted = Vec3<T>(T(0))};
+                        .refracted = Vec3<T>(T(0)),
+                        .film = {material.film_ior, material.film_nm}};
         if (const Mask<T> multiscatter = material.multiscatter > T(0); any(multiscatter)) {
             // Most of the colour is that of what comes through.
             const Vec3<T> color = min(material.transmission / max(material.weight, T(1e-6f)), Vec3<T>(one));
@@ -69,7 +78,13 @@ struct Dielectric {
         // The table's Fresnel, its F0 tinted.
         const T f0 = f0_from_ior(eta), share = clamp01((facets.reflected / kept - f0) / (one - f0));
         const Vec3<T> tinted = min(f0 * material.f0_tint, Vec3<T>(one));
-        const Vec3<T> mirrored = kept * (tinted + (Vec3<T>(one) - tinted) * share);
+        Vec3<T> mirrored = kept * (tinted + (Vec3<T>(one) - tinted) * share);
+        if (const Mask<T> has_film = lobe.film.is_there(); any(has_film)) {
+            // By how much the film changes what a facet about the normal mirrors.
+            const Vec3<T> bare = tinted + (Vec3<T>(one) - tinted) * fresnel_dielectric_weight(wo_local.z, eta);
+            const Vec3<T> filmed = mirrored * lobe.film_at(wo_local.z) / max(bare, Vec3<T>(T(1e-6f)));
+            mirrored = select(has_film, min(filmed, Vec3<T>(kept)), mirrored);
+        }
         // Without Fresnel what cannot come through still does not.
         const T all = facets.refracted + select(eta < one, facets.refracted * (f0 / (one - f0)), facets.reflected);
         lobe.reflected = lobe.reflection * mirrored;
@@ -171,6 +186,8 @@ struct Dielectric {
         return {above, below};
     }
 
+    Vec3<T> film_at(T cos_theta) const { return thin_film_reflectance(max(cos_theta, T(1e-4f)), eta, film, f0_tint); }
+
     /// What a microfacet does with the light.
     struct Split {
         Vec3<T> reflected, refracted;
@@ -183,7 +200,8 @@ struct Dielectric {
     Split split_at(T cos_oh) const {
         const T c = min(max(cos_oh, T(1e-6f)), T(1));
         const Vec3<T> white(T(1)), f0 = min(f0_from_ior(eta) * f0_tint, white);
-        const Vec3<T> mirrored = f0 + (white - f0) * fresnel_dielectric_weight(c, eta);
+        Vec3<T> mirrored = f0 + (white - f0) * fresnel_dielectric_weight(c, eta);
+        if (any(film.is_there())) mirrored = select(film.is_there(), film_at(c), mirrored);
         const Mask<T> refracts = sqr(eta) - T(1) + sqr(c) > T(0);
         return {reflection * mirrored, select(refracts, transmission * (white - fresnel * mirrored), Vec3<T>(T(0)))};
     }

@@ -1,6 +1,8 @@
 // What layers of a surface reflect of light, and what they leave to those beneath them. Normals in world space.
 #include "core/bsdf/base.h"
+#include "core/bsdf/thin_film.h"
 #include "core/shaders/ops/tables.h"
+#include "core/tables/ggx_albedo.h"
 #include "core/tables/sheen_ltc.h"
 
 namespace pivot {
@@ -15,27 +17,53 @@ Batch sheen_albedo(const Place& place, const Vec3b& normal, Batch roughness) {
     return sheen_ltc(roughness, cosine(place, normal)).albedo;
 }
 
+/// Of a rough dielectric that lies over something else, as the viewer sees it.
+struct Layer {
+    BaseMaterialOf<Batch> material;
+    Vec3b wo_local;
+
+    Layer(const Place& place, const Vec3b& normal, Batch alpha, Batch ior, const Vec3b& f0_tint, Batch multiscatter)
+        : material{.diffuse = Vec3b(Batch(1.0f)),
+                   .alpha = alpha,
+                   .dielectric_weight = Batch(1.0f),
+                   .dielectric_ior = ior,
+                   .dielectric_tint = f0_tint,
+                   .multiscatter = multiscatter} {
+        const Batch one(1.0f), most(1.0f - 0x1p-24f), least(1e-4f);
+        const Vec3b& wo = place.lanes.wo;
+        const Batch cosine = min(max(dot(wo, reflecting_normal(place.normal_geometric, wo, normal)), least), one);
+        wo_local = {sqrt(one - min(cosine * cosine, most)), Batch(0.0f), cosine};
+    }
+};
+
 /// What a rough dielectric about a normal leaves of light beneath it, as a base leaves it to its diffuse lobe; and how
 /// far light from the viewer goes in it, over its thickness.
 std::tuple<Batch, Batch> dielectric_layer(const Place& place, const Vec3b& normal, Batch alpha, Batch ior,
                                           const Vec3b& f0_tint, Batch multiscatter) {
-    const Batch one(1.0f), most(1.0f - 0x1p-24f), least(1e-4f);
-    const Vec3b& wo = place.lanes.wo;
-    const Batch cosine = min(max(dot(wo, reflecting_normal(place.normal_geometric, wo, normal)), least), one);
-    const BaseMaterialOf<Batch> layer{.diffuse = Vec3b(one),
-                                      .alpha = alpha,
-                                      .dielectric_weight = one,
-                                      .dielectric_ior = max(ior, one),
-                                      .dielectric_tint = f0_tint,
-                                      .multiscatter = multiscatter};
-    const Vec3b wo_local(sqrt(one - min(cosine * cosine, most)), Batch(0.0f), cosine);
-    const Batch sine2 = (one - cosine * cosine) / (layer.dielectric_ior * layer.dielectric_ior);
-    return {make_base(layer, wo_local).diffuse.x, one / sqrt(one - min(sine2, most))};
+    const Batch one(1.0f), most(1.0f - 0x1p-24f);
+    const Layer layer(place, normal, alpha, max(ior, one), f0_tint, multiscatter);
+    const Batch cosine = layer.wo_local.z;
+    const Batch sine2 = (one - cosine * cosine) / (layer.material.dielectric_ior * layer.material.dielectric_ior);
+    return {make_base(layer.material, layer.wo_local).diffuse.x, one / sqrt(one - min(sine2, most))};
+}
+
+/// The first of these where a thin film is on the dielectric: as if that mirrored at its normal alone, but keeps as
+/// much light as without a film. [Cycles 4.5 closure/bsdf_microfacet.h, bsdf_microfacet_estimate_albedo]
+Batch thin_film_layer(const Place& place, const Vec3b& normal, Batch alpha, Batch ior, const Vec3b& f0_tint,
+                      Batch multiscatter, Batch film_ior, Batch film_nm) {
+    const Batch one(1.0f);
+    const Layer layer(place, normal, alpha, max(ior, Batch(1.0001f)), f0_tint, multiscatter);
+    const BaseOf<Batch> base = make_base(layer.material, layer.wo_local);
+    const Batch single = select(multiscatter > Batch(0.0f), ggx_albedo(base.alpha, layer.wo_local.z), one);
+    const ThinFilmOf<Batch> film{film_ior, film_nm};
+    const Vec3b mirrored = thin_film_reflectance(layer.wo_local.z, base.fresnel.ior, film, f0_tint);
+    return max(one - max_component(mirrored * base.fresnel.dielectric_f90) * single, Batch(0.0f));
 }
 
 constexpr std::array ops{
     op<sheen_albedo>("sheen_albedo"),
     op<dielectric_layer>("dielectric_layer"),
+    op<thin_film_layer>("thin_film_layer"),
 };
 
 }  // namespace
