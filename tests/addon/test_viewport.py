@@ -177,3 +177,13 @@ def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:
     assert seen["moved"] == []
     assert seen["alpha mode"] == [still]
     assert seen["frame"] == [second_frame]
+
+
+def test_what_befalls_views_leaves_their_scenes_right(tmp_path: Path) -> None:
+    """Modes, playback, 50 undos, 50 switches of the engine, quad view, two views, a file that is loaded."""
+    seen = in_a_window("viewport_life_case", tmp_path)
+    assert seen["wrong"] == []
+    assert seen["undone"] == -1.0
+    assert seen["views"]["switches"] == seen["views"]["playback"] == 1
+    assert seen["views"]["edit in quad view"] == 4
+    assert seen["views"]["edit in two views"] == 2
