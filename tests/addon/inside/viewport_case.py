@@ -15,6 +15,8 @@ from typing import Any
 import bpy
 
 # isort: split
+import numpy as np
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import parts
 import window
@@ -57,6 +59,12 @@ def hide_the_sun(scene: Any) -> None:
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 0, 1)
 
 
+def preview_of(owner: Any) -> Any:
+    """(height, width, 4), or nothing yet."""
+    width, height = owner.preview.image_size if owner.preview else (0, 0)
+    return np.array(owner.preview.image_pixels_float[:] if width else (), np.float32).reshape(height, width, 4)
+
+
 def steps() -> Iterator[Callable[[], bool]]:
     window.clear()
     yield window.now  # the window is drawn anew first
@@ -64,7 +72,8 @@ def steps() -> Iterator[Callable[[], bool]]:
     main, area = window.view()
     scene = main.scene
     scene.render.engine, scene.view_settings.view_transform, scene.pivot.samples = "PIVOT", "Standard", 4
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 1, 1)
+    background = scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0, 0, 1, 1)
     red = lamp("red", (1, 0, 0, 1), 1)
     lamp("green", (0, 1, 0, 1), 0)
     space = area.spaces.active
@@ -95,7 +104,13 @@ def steps() -> Iterator[Callable[[], bool]]:
     for light.data.type in ("POINT", "SPOT", "SUN", "AREA"):
         properties.context = "DATA"
         yield window.after(DRAWN_S)
-    window.write(seen)
+    background.inputs["Color"].default_value = (0, 0, 1, 1)
+    previewed = {"red": bpy.data.materials["red"], "world": scene.world}
+    for owner in previewed.values():
+        owner.asset_generate_preview()
+    yield lambda: all(preview_of(owner).size and preview_of(owner)[..., 3].max() > 0 for owner in previewed.values())
+    previews = {name: preview_of(owner)[..., :3].mean((0, 1)).tolist() for name, owner in previewed.items()}
+    window.write({"seen": seen, "previews": previews})
 
 
 window.follow(steps(), deadline_s=60.0)
