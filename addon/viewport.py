@@ -50,6 +50,7 @@ class Viewport:
         self._layer: Any = None  # that the meshes are of
         self._pace = Pace()
         self._session: Any = None
+        self._lights: Any = None  # pivot_core.SessionLights of the scene as exported; None: not known
         self._is_first = False  # whether the session is to give the first picture of its view
         self._seen_s: float | None = None  # when that was on the screen
         self._whole: tuple[Any, float] | None = None  # settings and pixel edge of the session that is to follow it
@@ -166,7 +167,7 @@ class Viewport:
     def _export(self, depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> None:
         """Take over the scene, and say on the console what of it is left out."""
         _ending = self._end()  # it does while the scene is exported
-        self._scene, self._stale, self._visible = None, False, _visible(depsgraph, space)
+        self._scene, self._lights, self._stale, self._visible = None, None, False, _visible(depsgraph, space)
         self._local = local_parts(space)
         self._core = core.load()
         layer = depsgraph.scene.as_pointer(), depsgraph.view_layer.name
@@ -223,7 +224,7 @@ class Viewport:
         """Begin a session. settings: pivot_core.RenderSettings. pixel_px: the edge of its pixels."""
         self._stop()
         self._covers_px = self._view.set_camera(self._core, self._scene, pixel_px)
-        self._session = self._core.Session(self._scene, settings)
+        self._session = self._core.Session(self._scene, settings, self._lights)
         self._session.start()
         self._denoiser.forget()
         self._is_first = self._is_clean = self._is_end_shown = False
@@ -247,6 +248,7 @@ class Viewport:
         session, self._session = self._session, None
         if session is not None:
             session.stop()
+            self._lights = session.lights or self._lights
         return session
 
     def _has_news(self) -> bool:

@@ -96,10 +96,21 @@ void register_render(py::module_& module) {
              py::arg("virtual_light_method") = "AUTO", py::arg("denoising_passes") = false, py::arg("max_passages") = 8,
              py::arg("max_path_passages") = 9, py::arg("surface_passes") = false, py::arg("uv_attribute") = -1,
              py::arg("mist") = std::array<float, 3>{5.0f, 25.0f, 2.0f}, py::arg("mattes") = false);
+    py::class_<SessionLights, std::shared_ptr<SessionLights>>(
+        module, "SessionLights", "What an analytic session gathered, for those to come of the same scene.");
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
-        .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
+        .def(py::init([](std::shared_ptr<Scene> scene, const RenderSettings& settings,
+                         std::shared_ptr<SessionLights> known) {
+                 return std::make_unique<Session>(std::move(scene), settings, std::move(known));
+             }),
+             py::arg("scene"), py::arg("settings"), py::arg("known_lights") = nullptr,
+             "known_lights: of a session before, since when the scene has been edited by set_camera alone; taken over "
+             "where this session would gather the same.")
+        .def_property_readonly(
+            "lights", [](const Session& s) { return std::const_pointer_cast<SessionLights>(s.lights()); },
+            "SessionLights; None until they are gathered, and of Monte Carlo.")
         .def("start", &Session::start, py::call_guard<py::gil_scoped_release>(),
              "Starts the threads and returns at once.")
         .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),
