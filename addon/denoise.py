@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import importlib.util
+import weakref
 from collections.abc import Callable, Iterator
 from ctypes.util import find_library
 from pathlib import Path
@@ -54,23 +55,54 @@ def mode_of(scene: bpy.types.Scene, reporter: Reporter) -> str:
     return str(pivot.denoise)
 
 
-def denoised(mode: str, read: Callable[[str], Pixels], is_quick: bool = False) -> Pixels:
-    """Combined, (height, width, 4): its light without noise, its alpha as it was.
+class Denoiser:
+    """It keeps what it last filtered with, for pictures like that one. One thread at a time may use it."""
 
-    mode: 'ALL', or 'INDIRECT', which keeps direct light as it is: shadows and highlights stay sharp.
-    read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. is_quick: in a tenth of the
-    time, and a little worse. Raises DenoiserError.
-    """
-    albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
-    if not is_quick:
-        albedo, normal = _filtered(albedo=albedo), _filtered(normal=normal)
-    combined = read("Combined")
-    if mode == "ALL":
-        light = _filtered(is_quick, color=read("Noisy Image")[..., :3], albedo=albedo, normal=normal)
-    else:
-        direct = combined[..., :3] - read("Indirect")
-        light = direct + _filtered(is_quick, color=read("Noisy Indirect"), albedo=albedo, normal=normal)
-    return np.concatenate([light, combined[..., 3:]], axis=-1)
+    def __init__(self, is_quick: bool = False) -> None:
+        """is_quick: in a tenth of the time, and a little worse."""
+        self._is_quick = is_quick
+        self._filter: _Filter | None = None
+
+    def denoised(self, mode: str, read: Callable[[str], Pixels], is_coarse: bool = False) -> Pixels:
+        """Combined, (height, width, 4): its light without noise, its alpha as it was.
+
+        mode: 'ALL', or 'INDIRECT', which keeps direct light as it is: shadows and highlights stay sharp.
+        read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. is_coarse: what is
+        filtered has pixels of twice the edge, which takes a quarter of the time. Raises DenoiserError.
+        """
+        albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
+        combined = read("Combined")
+        noisy = read("Noisy Image")[..., :3] if mode == "ALL" else read("Noisy Indirect")
+        if is_coarse:
+            albedo, normal, noisy = map(_halved, (albedo, normal, noisy))
+        if not self._is_quick:
+            albedo, normal = self._filtered(albedo=albedo), self._filtered(normal=normal)
+        light = self._filtered(color=noisy, albedo=albedo, normal=normal)
+        if is_coarse:
+            light = _doubled(light, *combined.shape[:2])
+        if mode != "ALL":
+            light = combined[..., :3] - read("Indirect") + light
+        return np.concatenate([light, combined[..., 3:]], axis=-1)
+
+    def _filtered(self, **images: Pixels) -> Pixels:
+        """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or
+        these."""
+        kind = tuple(images), next(iter(images.values())).shape
+        if self._filter is None or self._filter.kind != kind:
+            self._filter = None  # and its memory is free for the next
+            self._filter = _Filter(*kind, self._is_quick)
+        return self._filter.run(images)
+
+
+def _halved(image: Pixels) -> Pixels:
+    """Means of two by two pixels; of an odd number of rows or columns the last stand alone."""
+    height, width = image.shape[:2]
+    even = np.pad(image, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+    return 0.25 * (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2])
+
+
+def _doubled(image: Pixels, height: int, width: int) -> Pixels:
+    return image.repeat(2, axis=0).repeat(2, axis=1)[:height, :width]
 
 
 def _candidates() -> Iterator[str]:
@@ -118,40 +150,47 @@ def _library() -> Any | None:
     return None
 
 
-def _filtered(is_quick: bool = False, **images: Pixels) -> Pixels:
-    """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or these.
+class _Filter:
+    """Open Image Denoise's, for images of these names and one shape."""
 
-    is_quick: albedo and normal, which color goes by, are noisy.
-    """
-    library = _library()
-    if library is None:
-        raise DenoiserError(f"there is no denoiser. Fix: {HOW_TO_GET_IT}")
-    device = library.oidnNewDevice(_DEVICE_CPU)
-    try:
+    def __init__(self, names: tuple[str, ...], shape: tuple[int, ...], is_quick: bool) -> None:
+        """shape: (height, width, 3). is_quick: albedo and normal, which color goes by, are noisy."""
+        library = _library()
+        if library is None:
+            raise DenoiserError(f"there is no denoiser. Fix: {HOW_TO_GET_IT}")
+        self.kind = names, shape
+        self._library = library
+        self._device = library.oidnNewDevice(_DEVICE_CPU)
         # It would bind Blender's own threads to cores; and in Debian's Blender the search for these ends in a crash.
-        library.set_device_flag(device, b"setAffinity", False)
-        library.oidnCommitDevice(device)
-        denoiser = library.oidnNewFilter(device, b"RT")
-        output = np.zeros_like(next(iter(images.values())), order="C")
-        buffers = {name: np.ascontiguousarray(image, np.float32) for name, image in images.items()} | {"output": output}
-        height, width = output.shape[:2]
-        for name, buffer in buffers.items():
+        library.set_device_flag(self._device, b"setAffinity", False)
+        library.oidnCommitDevice(self._device)
+        self._filter = library.oidnNewFilter(self._device, b"RT")
+        release = weakref.finalize(self, _release, library, self._filter, self._device)
+        release.atexit = False  # type: ignore[misc]  # the library's threads may be gone by then
+        self._images = {name: np.zeros(shape, np.float32) for name in (*names, "output")}
+        for name, image in self._images.items():
             library.oidnSetSharedFilterImage(
-                denoiser, name.encode(), buffer.ctypes.data, _FORMAT_FLOAT3, width, height, 0, 0, 0
+                self._filter, name.encode(), image.ctypes.data, _FORMAT_FLOAT3, shape[1], shape[0], 0, 0, 0
             )
-        if "color" in images:
-            library.set_filter_flag(denoiser, b"hdr", True)
-            library.set_filter_flag(denoiser, b"cleanAux", not is_quick)
+        if "color" in names:
+            library.set_filter_flag(self._filter, b"hdr", True)
+            library.set_filter_flag(self._filter, b"cleanAux", not is_quick)
         if is_quick and library.set_filter_number is not None:
-            library.set_filter_number(denoiser, b"quality", _QUALITY_FAST)
-            library.oidnGetDeviceError(device, None)  # a version that does not know it does without
-        library.oidnCommitFilter(denoiser)
-        library.oidnExecuteFilter(denoiser)
-        library.oidnReleaseFilter(denoiser)
+            library.set_filter_number(self._filter, b"quality", _QUALITY_FAST)
+            library.oidnGetDeviceError(self._device, None)  # a version that does not know it does without
+        library.oidnCommitFilter(self._filter)
+
+    def run(self, images: dict[str, Pixels]) -> Pixels:
+        for name, image in images.items():
+            self._images[name][:] = image
+        self._library.oidnExecuteFilter(self._filter)
         message = ctypes.c_char_p()
-        if library.oidnGetDeviceError(device, ctypes.byref(message)) != 0:
+        if self._library.oidnGetDeviceError(self._device, ctypes.byref(message)) != 0:
             text = (message.value or b"").decode()
             raise DenoiserError(f"Open Image Denoise failed, noise stays: {text}. Fix: set Denoise to None")
-    finally:
-        library.oidnReleaseDevice(device)
-    return output
+        return self._images["output"].copy()
+
+
+def _release(library: Any, denoiser: int, device: int) -> None:
+    library.oidnReleaseFilter(denoiser)
+    library.oidnReleaseDevice(device)

@@ -216,7 +216,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             session.stop()
         progress.show(session, last=True)
         try:
-            show(denoise.denoised(mode, session.read, is_quick=self.is_preview) if mode != "NONE" else None)
+            show(denoise.Denoiser(self.is_preview).denoised(mode, session.read) if mode != "NONE" else None)
         except denoise.DenoiserError as error:  # the picture is there, with its noise
             show()
             reporter.warn(str(error))

@@ -69,6 +69,14 @@ _BUILT_IN = (
 )
 
 
+# Lines that the Properties editor's default width has room for.
+_WITHOUT_DENOISER = (
+    "Needs Open Image Denoise:",
+    "pip's pyoidn, a Blender from",
+    "blender.org, or the system's library",
+)
+
+
 class PivotPanel:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -93,7 +101,9 @@ def draw_denoising(layout: bpy.types.UILayout, pivot: Any) -> None:
     column.prop(pivot, "denoise")
     column.prop(pivot, "denoise_viewport", text="Viewport")
     if not column.enabled:
-        column.label(text=f"To denoise, {denoise.HOW_TO_GET_IT}", icon="INFO")
+        lines = layout.column(align=True)
+        for number, line in enumerate(_WITHOUT_DENOISER):
+            lines.label(text=line, icon="INFO" if number == 0 else "BLANK1")
 
 
 class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
@@ -112,8 +122,10 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
             budget.prop(pivot, "error_budget")
             layout.prop(pivot, "light_sampling")
             layout.prop(pivot, "max_bounces")
-            layout.prop(pivot, "clamp_indirect")
-            layout.prop(pivot, "filter_glossy")
+            bounced = layout.column()
+            bounced.active = pivot.max_bounces > 0
+            bounced.prop(pivot, "clamp_indirect")
+            bounced.prop(pivot, "filter_glossy")
             layout.prop(pivot, "seed")
         else:
             layout.prop(pivot, "analytic_method")
@@ -123,7 +135,7 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
             lights = layout.column()
             lights.active = pivot.indirect == "VSGL"
             lights.prop(pivot, "virtual_lights")
-            lights.prop(pivot, "max_bounces")
+            layout.prop(pivot, "max_bounces")
         if pivot.integrator == "MONTE_CARLO":
             draw_denoising(layout, pivot)
         layout.prop(pivot, "time_limit")
@@ -276,7 +288,8 @@ class PIVOT_CAMERA_PT_panorama(PivotPanel, bpy.types.Panel):
         settings = panorama_settings(context.camera)
         layout.prop(settings, "panorama_type", text="Type")
         for name in panorama_names(settings.panorama_type):
-            layout.prop(settings, name)
+            coefficient = name.removeprefix("fisheye_polynomial_")
+            layout.prop(settings, name, **({} if coefficient == name else {"text": coefficient.upper()}))
 
 
 class PIVOT_LIGHT_PT_light(PivotPanel, bpy.types.Panel):

@@ -24,7 +24,6 @@ from .viewport_passes import as_colours, core_name
 from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
 _POLL_S = 0.005  # how soon a first picture is seen to be there
-_REDRAW_S = 0.1  # between pictures of samples that add up
 _REST_S = 0.02  # a view that has been seen so long is at rest; the hand moves it more often
 
 
@@ -51,6 +50,7 @@ class Viewport:
         self._layer: Any = None  # that the meshes are of
         self._pace = Pace()
         self._session: Any = None
+        self._lights: Any = None  # pivot_core.SessionLights of the scene as exported; None: not known
         self._is_first = False  # whether the session is to give the first picture of its view
         self._seen_s: float | None = None  # when that was on the screen
         self._whole: tuple[Any, float] | None = None  # settings and pixel edge of the session that is to follow it
@@ -166,8 +166,8 @@ class Viewport:
 
     def _export(self, depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> None:
         """Take over the scene, and say on the console what of it is left out."""
-        self._stop()
-        self._scene, self._stale, self._visible = None, False, _visible(depsgraph, space)
+        _ending = self._end()  # it does while the scene is exported
+        self._scene, self._lights, self._stale, self._visible = None, None, False, _visible(depsgraph, space)
         self._local = local_parts(space)
         self._core = core.load()
         layer = depsgraph.scene.as_pointer(), depsgraph.view_layer.name
@@ -188,13 +188,13 @@ class Viewport:
         if session is None:
             return False
         finished = session.wait(wait_s)
-        samples, now_s = session.samples_done, time.monotonic()
-        if samples > self._samples_read and (self._samples_read == 0 or finished or now_s > self._read_s + _REDRAW_S):
+        samples = session.samples_done
+        if samples > self._samples_read and self._is_due(finished):
             if self._is_first:
                 self._pace.took(session.sampling_s, session.width * session.height)
             if not self._is_clean:
                 self._show(as_colours(self._pass, session.read(core_name(self._pass))))
-            self._samples_read, self._read_s = samples, now_s
+            self._samples_read, self._read_s = samples, time.monotonic()
         cleaned = self._denoiser.take()
         has_what_it_takes = not self._is_first and self._settings["denoising_passes"]
         if has_what_it_takes and self._mode != "NONE" and self._pass == "COMBINED":
@@ -203,6 +203,10 @@ class Viewport:
                 self._show(cleaned)
             self._denoiser.offer(self._mode, session, samples, finished)
         return finished
+
+    def _is_due(self, has_ended: bool) -> bool:
+        """Whether samples that are new in the session are to be shown now."""
+        return self._samples_read == 0 or has_ended or time.monotonic() > self._read_s + self._pace.redraw_s
 
     def _show(self, pixels: Any) -> None:
         self._picture = Picture(pixels, self._view, self._covers_px)
@@ -220,7 +224,7 @@ class Viewport:
         """Begin a session. settings: pivot_core.RenderSettings. pixel_px: the edge of its pixels."""
         self._stop()
         self._covers_px = self._view.set_camera(self._core, self._scene, pixel_px)
-        self._session = self._core.Session(self._scene, settings)
+        self._session = self._core.Session(self._scene, settings, self._lights)
         self._session.start()
         self._denoiser.forget()
         self._is_first = self._is_clean = self._is_end_shown = False
@@ -237,9 +241,15 @@ class Viewport:
             self._start(*self._whole)
 
     def _stop(self) -> None:
-        if self._session is not None:
-            self._session.stop()
-            self._session = None
+        self._end()
+
+    def _end(self) -> Any:
+        """The session, which ends soon. Who lets go of it waits for that."""
+        session, self._session = self._session, None
+        if session is not None:
+            session.stop()
+            self._lights = session.lights or self._lights
+        return session
 
     def _has_news(self) -> bool:
         """Whether a draw would show what the last did not."""
@@ -247,7 +257,7 @@ class Viewport:
         if self._is_first:
             return ended and self._samples_read == 0
         if self._session.samples_done > self._samples_read:
-            return self._samples_read == 0 or ended or time.monotonic() > self._read_s + _REDRAW_S
+            return self._is_due(ended)
         return self._denoiser.has_result or (ended and not self._is_end_shown)
 
     def _watch(self, engine: bpy.types.RenderEngine) -> None:

@@ -7,14 +7,19 @@ from typing import Any
 
 from . import denoise
 
+_FINE_SAMPLES = 4
 _GUIDES = ("Combined", "Denoising Albedo", "Denoising Normal")
 _PASSES = {"ALL": (*_GUIDES, "Noisy Image"), "INDIRECT": (*_GUIDES, "Indirect", "Noisy Indirect")}
 
 
 class ViewportDenoiser:
-    """One picture at a time. A session's is cleaned whenever it has twice the samples, and at its end."""
+    """One picture at a time. A session's is cleaned whenever it has twice the samples, and at its end.
+
+    That of its first samples is filtered by large pixels, to be there soon.
+    """
 
     def __init__(self) -> None:
+        self._denoiser = denoise.Denoiser(is_quick=True)
         self._thread: threading.Thread | None = None
         self._is_broken = False
         self._session_number = 0
@@ -36,7 +41,9 @@ class ViewportDenoiser:
             return
         passes = {name: session.read(name) for name in _PASSES[mode]}
         self._samples_begun = samples
-        self._thread = threading.Thread(target=self._clean, args=(mode, passes, self._session_number), daemon=True)
+        is_coarse = samples < _FINE_SAMPLES and not finished
+        arguments = mode, passes, is_coarse, self._session_number
+        self._thread = threading.Thread(target=self._clean, args=arguments, daemon=True)
         self._thread.start()
 
     def take(self) -> Any:
@@ -55,10 +62,10 @@ class ViewportDenoiser:
     def _is_busy(self) -> bool:
         return self._thread is not None and self._thread.is_alive()
 
-    def _clean(self, mode: str, passes: dict[str, Any], session_number: int) -> None:
+    def _clean(self, mode: str, passes: dict[str, Any], is_coarse: bool, session_number: int) -> None:
         cleaned = None
         try:
-            cleaned = denoise.denoised(mode, passes.__getitem__, is_quick=True)
+            cleaned = self._denoiser.denoised(mode, passes.__getitem__, is_coarse)
         except denoise.DenoiserError as error:
             self._is_broken = True
             print(f"Warning: Pivot: {error}", flush=True)

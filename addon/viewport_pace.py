@@ -13,6 +13,8 @@ _MOST_PX = 16.0  # edge of a pixel
 _STEP = 2**0.25  # edges differ by: a little more or less time changes none
 _STILL_S = 0.3  # draws further apart are of no movement
 _LEAST_WAIT_S = 0.004
+_REDRAW_S = 0.1
+_SHOWING = 0.25  # of the time
 _MOST_WAIT_S = 0.1
 
 
@@ -50,6 +52,11 @@ class Pace:
     def wait_s(self) -> float:
         """How long a draw waits for a picture of what it shows: as long as it would take to draw once more for it."""
         return min(max(self._onto_screen_s, _LEAST_WAIT_S), _MOST_WAIT_S)
+
+    @property
+    def redraw_s(self) -> float:
+        """Between pictures of samples that add up: rendering is to have most of the time."""
+        return max(_REDRAW_S, self._onto_screen_s / _SHOWING)
 
     def took(self, elapsed_s: float, pixel_count: int) -> None:
         """A picture of so many pixels with a sample in each was made; in so long."""

@@ -109,10 +109,21 @@ void register_render(py::module_& module) {
              py::arg("bounce_limits") = std::array<std::uint32_t, 4>{~0u, ~0u, ~0u, ~0u},
              py::arg("shadow_catchers") = false, py::arg("occlusion_distance_m") = 0.0f,
              "bounce_limits: of diffuse, of glossy reflections, of those through surfaces and in media.");
+    py::class_<SessionLights, std::shared_ptr<SessionLights>>(
+        module, "SessionLights", "What an analytic session gathered, for those to come of the same scene.");
     py::class_<Session>(
         module, "Session",
         "A render by native threads. Sessions may share a scene, which must not be edited until all have ended.")
-        .def(py::init<std::shared_ptr<Scene>, const RenderSettings&>(), py::arg("scene"), py::arg("settings"))
+        .def(py::init([](std::shared_ptr<Scene> scene, const RenderSettings& settings,
+                         std::shared_ptr<SessionLights> known) {
+                 return std::make_unique<Session>(std::move(scene), settings, std::move(known));
+             }),
+             py::arg("scene"), py::arg("settings"), py::arg("known_lights") = nullptr,
+             "known_lights: of a session before, since when the scene has been edited by set_camera alone; taken over "
+             "where this session would gather the same.")
+        .def_property_readonly(
+            "lights", [](const Session& s) { return std::const_pointer_cast<SessionLights>(s.lights()); },
+            "SessionLights; None until they are gathered, and of Monte Carlo.")
         .def("start", &Session::start, py::call_guard<py::gil_scoped_release>(),
              "Starts the threads and returns at once.")
         .def("wait", &Session::wait, py::arg("seconds"), py::call_guard<py::gil_scoped_release>(),

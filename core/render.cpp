@@ -71,9 +71,11 @@ bool is_finite(const Sample& s) {
 
 }  // namespace
 
-Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings)
+Session::Session(std::shared_ptr<Scene> scene, const RenderSettings& settings,
+                 std::shared_ptr<const SessionLights> known)
     : scene_(std::move(scene)),
       settings_(settings),
+      known_lights_(std::move(known)),
       filter_(settings.filter_shape, settings.filter_width_px),
       squares_{scene_->camera().window.width() + 2 * filter_.reach_px(),
                scene_->camera().window.height() + 2 * filter_.reach_px()},
@@ -142,6 +144,16 @@ double Session::sampling_s() const {
     return std::chrono::duration<double>(end - sampling_start_).count();
 }
 
+const VirtualLights& Session::virtual_lights() const {
+    static const VirtualLights none;
+    return lights_ ? lights_->lights.bounced : none;
+}
+
+std::shared_ptr<const SessionLights> Session::lights() const {
+    const std::lock_guard lock(mutex_);
+    return lights_;
+}
+
 std::vector<std::string> Session::bad_samples() const {
     const std::lock_guard lock(mutex_);
     return bad_samples_;
@@ -161,9 +173,16 @@ void Session::run() {
     }
     if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
         scene_->trace_bent_cones([this] { return should_stop(); });
-    if (settings_.integrator == Integrator::analytic) lights_ = gather_lights(*scene_, settings_);
+    std::shared_ptr<const SessionLights> lights;
+    if (settings_.integrator == Integrator::analytic) {
+        const bool is_known = known_lights_ && known_lights_->scene.lock() == scene_ &&
+                              gather_the_same(known_lights_->settings, settings_);
+        lights = is_known ? known_lights_
+                          : std::make_shared<SessionLights>(scene_, settings_, gather_lights(*scene_, settings_));
+    }
     {
         const std::lock_guard lock(mutex_);
+        lights_ = std::move(lights);
         sampling_start_ = clock::now();
     }
     if (even_samples(settings_) < settings_.samples)
@@ -254,7 +273,7 @@ struct Session::SamplePass {
 bool Session::render_round(const Round& round, std::uint32_t samples) {
     const auto tiles = make_tiles(scene_->camera().window, filter_.reach_px());
     const std::uint32_t most = round.counts.empty() ? max_samples_per_pass : max_samples_per_sparse_pass;
-    const std::uint32_t first_count = lights_.bounced.is_empty() ? 1u : bounced_samples_shared;
+    const std::uint32_t first_count = virtual_lights().is_empty() ? 1u : bounced_samples_shared;
     // An analytic picture is the same for all seeds.
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
@@ -393,7 +412,7 @@ void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uin
             pixels_of_together.push_back(pixels[order[i]]);
         }
         shaded.resize(together.size());
-        shade_analytic(*scene_, settings_, lights_, together, pixels_of_together, index, *shared, shaded);
+        shade_analytic(*scene_, settings_, lights_->lights, together, pixels_of_together, index, *shared, shaded);
         for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
     }
 }

@@ -18,10 +18,20 @@
 
 namespace pivot {
 
+/// What an analytic session gathered, for those to come of the same scene.
+struct SessionLights {
+    std::weak_ptr<const Scene> scene;
+    RenderSettings settings;
+    AnalyticLights lights;
+};
+
 class Session {
    public:
-    /// Sessions may share a scene, which must not be edited until all have ended.
-    Session(std::shared_ptr<Scene> scene, const RenderSettings& settings);
+    /// Sessions may share a scene, which must not be edited until all have ended. known: lights of a session before,
+    /// since when the scene has been edited by set_camera() alone; they are taken over where they are what this session
+    /// would gather.
+    Session(std::shared_ptr<Scene> scene, const RenderSettings& settings,
+            std::shared_ptr<const SessionLights> known = nullptr);
     /// Stops and waits.
     ~Session();
     Session(const Session&) = delete;
@@ -45,7 +55,9 @@ class Session {
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
     const Film& film() const { return film_; }
     /// Once samples are done.
-    const VirtualLights& virtual_lights() const { return lights_.bounced; }
+    const VirtualLights& virtual_lights() const;
+    /// Null until they are gathered, and of Monte Carlo.
+    std::shared_ptr<const SessionLights> lights() const;
     /// The first few samples that were not finite and were left out, each by pixel and object.
     std::vector<std::string> bad_samples() const;
 
@@ -88,7 +100,7 @@ class Session {
     std::shared_ptr<Scene> scene_;
     std::shared_ptr<Scene> catchers_;  ///< alone; none where these are not told of
     RenderSettings settings_;
-    AnalyticLights lights_;
+    std::shared_ptr<const SessionLights> known_lights_;
     PixelFilter filter_;
     PixelGrid squares_;
     Film film_;
@@ -101,6 +113,7 @@ class Session {
     std::condition_variable ended_;
     bool has_ended_ = false;
     std::chrono::steady_clock::time_point sampling_start_, end_time_;
+    std::shared_ptr<const SessionLights> lights_;  ///< of this session; the threads that sample read it without a lock
     std::exception_ptr fault_;
     std::vector<std::string> bad_samples_;
     std::thread thread_;

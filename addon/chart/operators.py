@@ -170,12 +170,14 @@ def draw(layout: Any, context: bpy.types.Context) -> None:
     if not chart.rows or chart.scene != context.scene.name:
         return
     suggestion = chart.suggestion(context.scene)
-    row = layout.row()
+    lines = layout.column(align=True)
+    budget = f"{context.scene.pivot.error_budget:.2g} %"
     if suggestion is None:
-        row.label(text=f"No setting charted meets {context.scene.pivot.error_budget:.2g} %", icon="INFO")
+        lines.label(text=f"No setting charted meets {budget}", icon="INFO")
     else:
-        row.label(text=f"Direct light: {describe(suggestion)}", icon="INFO")
-        row.operator("pivot.chart_apply")
+        lines.label(text=f"Direct light, for {budget} or less:", icon="INFO")
+        lines.label(text=describe(suggestion))
+        lines.operator("pivot.chart_apply")
 
 
 def _redraw(context: bpy.types.Context) -> None:

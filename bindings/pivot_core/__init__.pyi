@@ -38,6 +38,7 @@ __all__: list[str] = [
     "RenderSettings",
     "Scene",
     "Session",
+    "SessionLights",
     "Shader",
     "SharedMeshes",
     "SphereLight",
@@ -939,6 +940,11 @@ class RenderSettings:
         bounce_limits: of diffuse, of glossy reflections, of those through surfaces and in media.
         """
 
+class SessionLights:
+    """
+    What an analytic session gathered, for those to come of the same scene.
+    """
+
 class Session:
     """
     A render by native threads. Sessions may share a scene, which must not be edited until all have ended.
@@ -954,7 +960,10 @@ class Session:
         """
         What a session allocates for each pixel of its window.
         """
-    def __init__(self, scene: Scene, settings: RenderSettings) -> None: ...
+    def __init__(self, scene: Scene, settings: RenderSettings, known_lights: SessionLights = None) -> None:
+        """
+        known_lights: of a session before, since when the scene has been edited by set_camera alone; taken over where this session would gather the same.
+        """
     def read(self, pass_name: str) -> numpy.typing.NDArray[numpy.float32]:
         """
         A pass as float32 (height, width, channels), bottom row first. Combined: premultiplied RGBA; Depth along the camera's axis, 1e10 where nothing is; Normal, Position: world space; DiffCol; Emit; VolumeDir and VolumeInd: what media scatter to the camera of light that comes to them straight, and of other light; Indirect, what came by way of other surfaces and media. Of the analytic integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute uv_attribute; Vector, see set_camera; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.
@@ -992,6 +1001,11 @@ class Session:
         """
     @property
     def height(self) -> int: ...
+    @property
+    def lights(self) -> SessionLights:
+        """
+        SessionLights; None until they are gathered, and of Monte Carlo.
+        """
     @property
     def pixel_samples(self) -> int:
         """

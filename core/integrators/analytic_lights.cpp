@@ -1,5 +1,7 @@
 #include "core/integrators/analytic_lights.h"
 
+#include <tuple>
+
 #include "core/integrators/cell_space.h"
 #include "core/integrators/photons.h"
 #include "core/sampling/sobol.h"
@@ -61,6 +63,13 @@ AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings)
         lights.emitted[side] = build_virtual_lights(deposits[side], settings.virtual_lights);
     if (settings.indirect == Indirect::virtual_lights) lights.bounced = trace_virtual_lights(scene, settings);
     return lights;
+}
+
+bool gather_the_same(const RenderSettings& settings, const RenderSettings& others) {
+    const auto read = [](const RenderSettings& s) {
+        return std::tuple(s.virtual_lights, s.indirect, s.max_bounces, s.max_path_passages);
+    };
+    return read(settings) == read(others);
 }
 
 }  // namespace pivot

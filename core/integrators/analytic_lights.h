@@ -18,4 +18,7 @@ struct AnalyticLights {
 /// Works on all cores; the same scene and settings give the same lights.
 AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings);
 
+/// Whether, of one scene, that is the same by both settings.
+bool gather_the_same(const RenderSettings& settings, const RenderSettings& others);
+
 }  // namespace pivot

@@ -5,14 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import flip_evaluator
 import numpy as np
 import pytest
+from beside_cycles import FLIP, TOLERANCE, flip, read_both
 from blender_host import Host
-from exr import read_rgb
-
-TOLERANCE = 0.01  # of the mean
-FLIP = 0.05
 
 
 @pytest.fixture(scope="module")
@@ -25,13 +21,8 @@ def pictures(host: Host, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path
 
 
 def compare(folder: Path, name: str, integrator: str) -> dict[str, Any]:
-    ours = read_rgb(folder / f"{name}_{integrator}.exr")
-    cycles = read_rgb(folder / f"{name}{'_direct' if 'direct' in integrator else ''}_CYCLES.exr")
-    shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]
-    return {
-        "mean": ours.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1)),
-        "flip": flip_evaluator.evaluate(*shown, "LDR")[1],
-    }
+    ours, cycles = read_both(folder, name, integrator)
+    return {"mean": ours.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1)), "flip": flip(ours, cycles)}
 
 
 @pytest.mark.parametrize("integrator", ["MONTE_CARLO", "direct_ANALYTIC"])

@@ -46,6 +46,16 @@ def test_denoised_pictures_are_nearer_the_converged_one(case: tuple[Path, Any], 
     np.testing.assert_array_equal(alpha(folder, name), alpha(folder, "noisy"))
 
 
+@pytest.mark.parametrize("name", ["coarse", "indirect", "fine"])
+def test_one_denoiser_cleans_pictures_of_any_size(case: tuple[Path, Any], name: str) -> None:
+    if not case[1]["found"]:
+        pytest.skip("no Open Image Denoise here")
+    *shape, mean, deviation = case[1]["grey"][name]
+    assert shape == [47, 65, 4]
+    assert mean == pytest.approx(case[1]["grey"]["noisy"][3], rel=0.03)
+    assert deviation < 0.4 * case[1]["grey"]["noisy"][4]
+
+
 def test_without_the_library_noise_stays_and_is_named(case: tuple[Path, Any]) -> None:
     folder, result = case
     (said,) = result["said"]["absent"]

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import flip_evaluator
-import numpy as np
 import pytest
+from beside_cycles import assert_alike
 from blender_host import Host
-from exr import read_rgb
 
 CASES = ("leaves", "panes", "veils")
-TOLERANCE = 0.01  # of the mean
-FLIP = 0.05
 
 
 @pytest.fixture(scope="module")
@@ -25,8 +21,4 @@ def folder(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("integrator", ["MONTE_CARLO", "direct_ANALYTIC"])
 def test_pictures_are_cycles(folder: Path, name: str, integrator: str) -> None:
-    ours = read_rgb(folder / f"{name}_{integrator}.exr")
-    cycles = read_rgb(folder / f"{name}{'_direct' if 'direct' in integrator else ''}_CYCLES.exr")
-    assert ours.mean(axis=(0, 1)) == pytest.approx(cycles.mean(axis=(0, 1)), rel=TOLERANCE)
-    shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]
-    assert flip_evaluator.evaluate(*shown, "LDR")[1] <= FLIP
+    assert_alike(folder, name, integrator)

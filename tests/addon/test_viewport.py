@@ -32,11 +32,15 @@ def in_a_window(script: str, folder: Path, *arguments: str) -> Any:
     return json.loads((folder / "result.json").read_text())
 
 
-def test_viewport_shows_the_scene_and_panels_draw(tmp_path: Path) -> None:
-    red, green, blue, red_again, analytic, lit = in_a_window("viewport_case", tmp_path)
+def test_viewport_shows_the_scene_and_panels_and_previews_are_drawn(tmp_path: Path) -> None:
+    result = in_a_window("viewport_case", tmp_path)
+    red, green, blue, red_again, analytic, lit = result["seen"]
     np.testing.assert_array_equal(
         np.round([red, green, blue, red_again, analytic, lit]), [*np.eye(3), *[(1, 0, 0)] * 2, (0, 1, 0)]
     )
+    previews = {name: np.array(mean) for name, mean in result["previews"].items()}
+    assert previews["red"][0] > 1.2 * previews["red"][1]
+    assert previews["world"][2] > 0.5 > 2 * previews["world"][0]
 
 
 @pytest.fixture(scope="module")
@@ -177,3 +181,13 @@ def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:
     assert seen["moved"] == []
     assert seen["alpha mode"] == [still]
     assert seen["frame"] == [second_frame]
+
+
+def test_what_befalls_views_leaves_their_scenes_right(tmp_path: Path) -> None:
+    """Modes, playback, 50 undos, 50 switches of the engine, quad view, two views, a file that is loaded."""
+    seen = in_a_window("viewport_life_case", tmp_path)
+    assert seen["wrong"] == []
+    assert seen["undone"] == -1.0
+    assert seen["views"]["switches"] == seen["views"]["playback"] == 1
+    assert seen["views"]["edit in quad view"] == 4
+    assert seen["views"]["edit in two views"] == 2

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import statistics
 import sys
 import time
-import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +16,10 @@ import addon_utils
 import bmesh
 from mathutils import Quaternion
 
-FOLDER, ENGINE = Path(sys.argv[-2]), sys.argv[-1]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon" / "inside"))
+import window
+
+ENGINE = sys.argv[-1]
 TICK_S = 0.004
 ORBIT_S = 6.0
 REST_S = 2.5
@@ -64,77 +65,57 @@ def grid(z: float) -> Any:
     return result
 
 
-def steps() -> Iterator[float]:
-    """Yields how long to wait."""
+def steps() -> Iterator[Callable[[], bool]]:
     bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
     addon_utils.enable("pivot")
     addon_utils.enable("cycles")
-    yield 0.5
-    window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    with bpy.context.temp_override(window=window, area=area):
+    yield window.after(0.5)
+    with window.in_view():
         bpy.ops.screen.screen_full_area(use_hide_panels=True)
-    yield 0.5
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
+    yield window.after(0.5)
+    main, area = window.view()
+    region = window.region()
     events["size"] = region.width, region.height
-    space, scene = area.spaces.active, window.scene
+    space, scene = area.spaces.active, main.scene
     space.overlay.show_overlays = space.show_gizmo = False
     scene.render.engine = ENGINE
     scene.pivot.samples = scene.cycles.preview_samples = 1
     if ENGINE == "PIVOT":
         watch_pivot()
     space.shading.type = "RENDERED"
-    yield 4.0
+    yield window.after(4.0)
     draws.clear()
     starts.clear()
     began_s, cpu_s = time.monotonic(), time.process_time()
     turn = Quaternion((0, 0, 1), 0.01)
     while time.monotonic() < began_s + ORBIT_S:
         space.region_3d.view_rotation = turn @ space.region_3d.view_rotation
-        yield TICK_S
+        yield window.now
     events["orbit"], events["cpu_s"] = [began_s, time.monotonic()], time.process_time() - cpu_s
     if draws:
         events["draw_ms"] = [1e3 * value for value in statistics.quantiles(draws, n=20)][9::9]
         events["draws"] = len(draws)
         events["pixel_px"] = statistics.median(edge_px for *_, edge_px in starts if edge_px > 1)
-    yield REST_S
+    yield window.after(REST_S)
     cube, lamp = bpy.data.objects["Cube"], bpy.data.objects["Light"]
     for name, moved in (("object in the default scene", cube), ("object", None), ("lamp", lamp)):
         if moved is None:
             moved = grid(-1.5)
             grid(1.5)
-            yield 3 * REST_S
+            yield window.after(3 * REST_S)
         events["edits"][name] = []
         for number in range(EDITS):
             exported.clear()
             starts.clear()
             edited_s, cpu_s = time.monotonic(), time.thread_time()
             moved.location.x += 0.5 if number % 2 == 0 else -0.5
-            yield REST_S
+            yield window.after(REST_S)
             start_ms = 1e3 * (starts[0][0] - edited_s) if starts else None
             cpu_ms = 1e3 * (starts[0][1] - cpu_s) if starts else None
             events["edits"][name].append(
                 {"time_s": edited_s, "meshes": len(exported), "start_ms": start_ms, "cpu_ms": cpu_ms}
             )
-    (FOLDER / "result.json").write_text(json.dumps(events))
+    window.write(events)
 
 
-def main() -> None:
-    todo = steps()
-
-    def tick() -> float | None:
-        try:
-            return next(todo)
-        except StopIteration:
-            pass
-        except BaseException:
-            traceback.print_exc()
-        bpy.ops.wm.quit_blender()
-        return None
-
-    bpy.context.preferences.view.show_splash = False
-    bpy.app.timers.register(tick, first_interval=0.5, persistent=True)
-
-
-main()
+window.follow(steps(), deadline_s=300.0, poll_s=TICK_S)

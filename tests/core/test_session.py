@@ -190,6 +190,32 @@ def test_a_session_that_waits_for_anothers_bent_cones_can_be_stopped() -> None:
     assert tracing.wait(5.0)
 
 
+def test_lights_of_a_session_before_serve_where_they_are_the_same() -> None:
+    """Virtual lights, which no camera changes: its picture is as if they had been traced for it."""
+
+    def rendered(known: pivot_core.SessionLights | None, **settings: int) -> pivot_core.Session:
+        all_settings = {"integrator": "ANALYTIC", "indirect": "VSGL", "virtual_lights": 64, "samples": 1} | settings
+        session = pivot_core.Session(scene, pivot_core.RenderSettings(**all_settings), known)
+        assert session.lights is None
+        session.start()
+        assert session.wait(60.0)
+        return session
+
+    scene = simple_scene()
+    first = rendered(None)
+    set_camera(scene, (1, -7, 3), (0, 0, 1), (32, 24), 0.5)
+    again, anew = rendered(first.lights), rendered(None)
+    np.testing.assert_array_equal(again.read("Combined"), anew.read("Combined"))
+    assert again.read("Indirect").mean() > 0
+    assert again.virtual_lights == first.virtual_lights  # to how long it took to make them
+    assert again.virtual_lights != anew.virtual_lights
+    more = rendered(first.lights, virtual_lights=128)
+    assert more.virtual_lights[1] > first.virtual_lights[1]
+    scene = simple_scene(emission=0.5)
+    other, of_other = rendered(first.lights), rendered(None)
+    np.testing.assert_array_equal(other.read("Combined"), of_other.read("Combined"))
+
+
 def test_edits_of_what_was_removed_name_it() -> None:
     scene = pivot_core.Scene()
     key = scene.add_light("key", pivot_core.SphereLight((0, 0, 1), 0.1, (1, 1, 1)))

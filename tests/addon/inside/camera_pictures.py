@@ -9,7 +9,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import _ball, _save
+from cycles_cases import _ball, _cycles, _pivot
 
 SAMPLES = 64
 BLUR: dict[str, Any] = {"aperture_fstop": 0.1, "focus_distance": 2.5}
@@ -38,7 +38,9 @@ def main(folder: Path) -> Any:
         for owner, values in ((data, settings), (panorama_of(data) if panorama else data, panorama), (data.dof, dof)):
             for key, value in values.items():
                 setattr(owner, key, value)
-        _render(folder, name)
+        _cycles(folder / f"{name}_CYCLES.exr", 0, 2 * SAMPLES)
+        for bpy.context.scene.pivot.integrator in ("MONTE_CARLO", "ANALYTIC"):
+            _pivot(folder / f"{name}_{bpy.context.scene.pivot.integrator}.exr", 0, "JOINT", SAMPLES)
     return list(CASES)
 
 
@@ -60,17 +62,3 @@ def _scene() -> None:
         bpy.context.scene.collection.objects[f"lamp {i}"].rotation_euler = (math.pi / 2, 0, 0)
     parts.world((0.4, 0.5, 0.6))
     parts.light("sun", "SUN", energy=2, angle=0.1).rotation_euler = (0.6, 0.3, 0)
-
-
-def _render(folder: Path, name: str) -> None:
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    cycles = scene.cycles
-    cycles.device, cycles.samples, cycles.max_bounces = "CPU", 2 * SAMPLES, 0
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    _save(folder / f"{name}_CYCLES.exr")
-    scene.render.engine = "PIVOT"
-    scene.pivot.samples, scene.pivot.max_bounces = SAMPLES, 0
-    for integrator in ("MONTE_CARLO", "ANALYTIC"):
-        scene.pivot.integrator = integrator
-        _save(folder / f"{name}_{integrator}.exr")

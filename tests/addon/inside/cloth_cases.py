@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import OLD, SPHERE, _ball, _cycles, _pivot, _save
+from cycles_cases import OLD, SPHERE, _ball, by_both, directly_by_both
 
 ANALYTIC_SAMPLES = 8
 RED = (0.7, 0.3, 0.15, 1)
@@ -45,13 +45,8 @@ if bpy.app.version >= (4, 3):
 def main(folder: Path) -> Any:
     for name, (kind, inputs) in CASES.items():
         _scene(name, kind, dict(inputs))
-        _cycles(folder / f"{name}_CYCLES.exr", 1)
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT")
-        _cycles(folder / f"{name}_direct_CYCLES.exr", 0)
-        scene = bpy.context.scene
-        scene.render.engine, scene.pivot.integrator = "PIVOT", "ANALYTIC"
-        scene.pivot.samples, scene.pivot.max_bounces = ANALYTIC_SAMPLES, 0
-        _save(folder / f"{name}_direct_ANALYTIC.exr")
+        by_both(folder, name, 1)
+        directly_by_both(folder, name, ANALYTIC_SAMPLES)
     return list(CASES)
 
 

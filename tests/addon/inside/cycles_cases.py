@@ -212,6 +212,20 @@ def _pivot(path: Path, bounces: int, light_sampling: str, samples: int = 0, file
     _save(path, file_format)
 
 
+def by_both(folder: Path, name: str, bounces: int) -> None:
+    """NAME_CYCLES.exr and NAME_MONTE_CARLO.exr."""
+    _cycles(folder / f"{name}_CYCLES.exr", bounces)
+    _pivot(folder / f"{name}_MONTE_CARLO.exr", bounces, "JOINT")
+
+
+def directly_by_both(folder: Path, name: str, samples: int = 0, is_analytic: bool = True) -> None:
+    """Of direct light: NAME_direct_CYCLES.exr and, by so many samples, NAME_direct_ANALYTIC.exr."""
+    _cycles(folder / f"{name}_direct_CYCLES.exr", 0)
+    if is_analytic:
+        bpy.context.scene.pivot.integrator = "ANALYTIC"
+        _pivot(folder / f"{name}_direct_ANALYTIC.exr", 0, "JOINT", samples)
+
+
 def _save(path: Path, file_format: str = "OPEN_EXR") -> None:
     render = bpy.context.scene.render
     render.image_settings.file_format = file_format

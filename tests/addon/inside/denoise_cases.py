@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 import parts
 from pivot import denoise, engine, passes
 
@@ -43,7 +44,24 @@ def main(folder: Path) -> dict[str, Any]:
     said["analytic"] = render("analytic")
     pivot.integrator, pivot.denoise, pivot.samples = "MONTE_CARLO", "NONE", 2048
     render("converged")
-    return {"found": found, "said": said, "passes": _denoising_data(folder)}
+    return {"found": found, "said": said, "passes": _denoising_data(folder), "grey": found and _of_grey_noise()}
+
+
+def _of_grey_noise() -> dict[str, list[float]]:
+    """The mean and deviation of noise of mean 1, and after pictures of it were denoised by one Denoiser."""
+    noise = np.random.default_rng(1).uniform(0, 2, (47, 65, 1)).astype(np.float32)
+    direct, grey = np.full((47, 65, 3), 2, np.float32), np.full((47, 65, 3), 0.5, np.float32)
+    indirect = np.repeat(noise, 3, axis=-1)
+    combined = np.concatenate([direct + indirect, np.ones_like(noise)], axis=-1)
+    read = {"Combined": combined, "Indirect": indirect, "Noisy Indirect": indirect}
+    read |= {"Noisy Image": combined, "Denoising Albedo": grey, "Denoising Normal": grey}
+    denoiser, result = denoise.Denoiser(is_quick=True), {"noisy": combined}
+    for name, mode, is_coarse in (("coarse", "ALL", True), ("indirect", "INDIRECT", True), ("fine", "ALL", False)):
+        result[name] = denoiser.denoised(mode, read.__getitem__, is_coarse)
+    return {
+        name: [*picture.shape, float(picture[..., :3].mean()), float(picture[..., :3].std())]
+        for name, picture in result.items()
+    }
 
 
 def _denoising_data(folder: Path) -> list[str]:

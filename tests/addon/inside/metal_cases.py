@@ -12,7 +12,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import OLD, SPHERE, _ball, _cycles, _pivot
+from cycles_cases import OLD, SPHERE, _ball, by_both, directly_by_both
 
 PRINCIPLED, METALLIC = "ShaderNodeBsdfPrincipled", "ShaderNodeBsdfMetallic"
 GOLD, PAINT = (0.9, 0.6, 0.3, 1), (0.5, 0.05, 0.03, 1)
@@ -33,11 +33,8 @@ def main(folder: Path) -> Any:
         lamp = parts.light("lamp", "AREA", (2.5, -1, 4), energy=150, shape="RECTANGLE", size=2, size_y=0.8)
         lamp.rotation_euler = (0.3, 0.4, 0)
         parts.world((0.2, 0.2, 0.2))
-        _cycles(folder / f"{name}_CYCLES.exr", 1)
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT")
-        _cycles(folder / f"{name}_direct_CYCLES.exr", 0)
-        bpy.context.scene.pivot.integrator = "ANALYTIC"
-        _pivot(folder / f"{name}_direct_ANALYTIC.exr", 0, "JOINT", samples=8)
+        by_both(folder, name, 1)
+        directly_by_both(folder, name, samples=8)
     return cases()
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import _ball, _save
+from cycles_cases import _ball, _cycles, _pivot
 
 SINGLE = "NISHITA" if bpy.app.version < (5, 0) else "SINGLE_SCATTERING"
 NOON: dict[str, Any] = {"sky_type": SINGLE, "sun_elevation": 0.9, "sun_rotation": 0.6, "sun_size": 0.1}
@@ -40,13 +40,7 @@ def main(folder: Path) -> Any:
             setattr(sky, key, value)
         tree.links.new(sky.outputs[0], tree.nodes["Background"].inputs["Color"])
         tree.nodes["Background"].inputs["Strength"].default_value = 0.1 if settings["sky_type"] == SINGLE else 0.5
-        scene = bpy.context.scene
-        scene.world.cycles_visibility.camera = name != "unseen"
-        scene.render.engine = "CYCLES"
-        scene.cycles.device, scene.cycles.samples, scene.cycles.max_bounces = "CPU", 256, 0
-        scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
-        _save(folder / f"{name}_CYCLES.exr")
-        scene.render.engine = "PIVOT"
-        scene.pivot.samples, scene.pivot.max_bounces = 128, 0
-        _save(folder / f"{name}_PIVOT.exr")
+        bpy.context.scene.world.cycles_visibility.camera = name != "unseen"
+        _cycles(folder / f"{name}_CYCLES.exr", 0, 256)
+        _pivot(folder / f"{name}_PIVOT.exr", 0, "JOINT", 128)
     return list(CASES)

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 import parts
-from cycles_cases import SPHERE, _cycles, _pivot
+from cycles_cases import SPHERE, by_both, directly_by_both
 
 CASES = ("leaves", "panes", "veils")
 
@@ -23,13 +23,10 @@ def main(folder: Path) -> Any:
         parts.quad("ground", material=clay).scale = (6, 6, 1)
         bpy.context.scene.cycles.transparent_max_bounces = 3
         globals()[f"_{name}"]()
-        _cycles(folder / f"{name}_CYCLES.exr", 1)
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT")
+        by_both(folder, name, 1)
         # The analytic integrator counts what is seen through, and what shades, each by itself.
         bpy.context.scene.cycles.transparent_max_bounces = 30
-        _cycles(folder / f"{name}_direct_CYCLES.exr", 0)
-        bpy.context.scene.pivot.integrator = "ANALYTIC"
-        _pivot(folder / f"{name}_direct_ANALYTIC.exr", 0, "JOINT")
+        directly_by_both(folder, name)
     return list(CASES)
 
 

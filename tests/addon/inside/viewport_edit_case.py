@@ -6,10 +6,8 @@ pictures, bit by bit.
 
 from __future__ import annotations
 
-import json
 import random
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -18,34 +16,27 @@ import bpy
 
 # isort: split
 import bmesh
-import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import parts
 import window
+from scene_compared import differing
 
-EDITS = 100
+EDITS, TOGETHER = 500, 5  # of these many are made before the viewport's scene is looked at
 SEED = 7
-WIDTH, HEIGHT = 48, 32
-PASSES = ("Combined", "Depth", "Normal", "DiffCol")
 FEW_S = 0.02
 
 dice = random.Random(SEED)
 
 
 class Watch:
-    """The viewport, and the meshes that it exported."""
+    """What the viewport exports."""
 
     def __init__(self) -> None:
-        self.viewport: Any = None
         self.meshes = self.exports = 0
         module: Any = sys.modules["pivot.viewport"]
         scene: Any = sys.modules["pivot.export.scene"]
-        draw, export, arrays = module.Viewport.draw, module.Viewport._export, scene.mesh_arrays
-
-        def watched_draw(viewport: Any, *arguments: Any) -> None:
-            self.viewport = viewport
-            draw(viewport, *arguments)
+        export, arrays = module.Viewport._export, scene.mesh_arrays
 
         def counted(mesh: Any) -> Any:
             self.meshes += 1
@@ -57,34 +48,7 @@ class Watch:
             export(*arguments)
             scene.mesh_arrays = arrays
 
-        module.Viewport.draw, module.Viewport._export = watched_draw, watched_export
-
-    def rests(self) -> bool:
-        own = self.viewport
-        return own is not None and not own._stale and own._session is not None and own._session.wait(0.0)
-
-
-def picture(core: Any, scene: Any) -> dict[str, Any]:
-    turned = np.diag([1.0, 1, 1, 1])
-    turned[:3, 3] = 0, 0, 12
-    scene.set_camera(turned, (-0.6, 0.6, -0.4, 0.4), WIDTH, HEIGHT)
-    session = core.Session(scene, core.RenderSettings(samples=1, max_bounces=1))
-    session.start()
-    session.wait(20.0)
-    return {name: session.read(name) for name in PASSES}
-
-
-def differing(viewport: Any) -> list[str]:
-    """The passes in which a new export is not as the viewport's."""
-    from pivot.export.mesh_cache import MeshCache
-    from pivot.export.scene import export_scene
-    from pivot.report import Reporter
-
-    reporter = Reporter(lambda level, text: None, set())
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    fresh = export_scene(viewport._core, depsgraph, reporter, lambda: None, meshes=MeshCache(viewport._core)).scene
-    expected, found = picture(viewport._core, fresh), picture(viewport._core, viewport._scene)
-    return [name for name in PASSES if not np.array_equal(expected[name], found[name])]
+        module.Viewport._export = watched_export
 
 
 def somewhere(reach: float = 4.0) -> tuple[float, float, float]:
@@ -244,8 +208,8 @@ class Edits:
 
 def steps() -> Iterator[Callable[[], bool]]:
     window.clear()
-    yield lambda: True
-    watch = Watch()
+    yield window.now
+    watch, viewports = Watch(), window.Viewports()
     main, area = window.view()
     main.scene.render.engine, main.scene.pivot.samples = "PIVOT", 1
     area.spaces.active.overlay.show_overlays = False
@@ -253,17 +217,22 @@ def steps() -> Iterator[Callable[[], bool]]:
     kinds = [name for name in dir(edits) if not name.startswith("_") and callable(getattr(edits, name))]
     kinds = [name for name in kinds if name not in ("objects", "any", "with_material")]
     area.spaces.active.shading.type = "RENDERED"
-    yield watch.rests
+    yield viewports.have_pictures
     result: dict[str, Any] = {"wrong": [], "kinds": kinds, "meshes": dict.fromkeys(kinds, 0), "edits": 0}
     for number in range(EDITS):
         kind = kinds[number] if number < len(kinds) else dice.choice(kinds)
-        meshes, since_s = watch.meshes, time.monotonic()
+        meshes = watch.meshes
         # What Blender says of an edit comes with the next turn of its loop, so what rests now need not yet.
         getattr(edits, kind)()
-        yield lambda since_s=since_s: time.monotonic() > since_s + FEW_S and watch.rests()
-        result["meshes"][kind] = max(result["meshes"][kind], watch.meshes - meshes)
         result["edits"] += 1
-        wrong = differing(watch.viewport)
+        is_alone = number < len(kinds)
+        if not is_alone and number % TOGETHER:
+            main.view_layer.update()
+            continue
+        yield window.after(FEW_S, viewports.have_pictures)
+        if is_alone:
+            result["meshes"][kind] = watch.meshes - meshes
+        wrong = differing(viewports.any)
         if wrong:
             result["wrong"].append([number, kind, wrong])
     result["exports"] = watch.exports
@@ -271,13 +240,13 @@ def steps() -> Iterator[Callable[[], bool]]:
     for made in list(edits.objects()):
         bpy.data.objects.remove(made)
     large = [parts.link("large", grid(500), (0, 0, z)) for z in (0, 1)]
-    yield lambda: time.monotonic() > since_s + FEW_S and watch.rests()
+    yield window.after(FEW_S, viewports.have_pictures)
     result["triangles"] = sum(2 * len(made.data.polygons) for made in large)
     for name, moved in (("object", large[0]), ("lamp", edits.light)):
-        watch.meshes, exports, since_s = 0, watch.exports, time.monotonic()
+        watch.meshes, exports = 0, watch.exports
         moved.location.x = 1
-        yield lambda since_s=since_s: time.monotonic() > since_s + FEW_S and watch.rests()
-        result[name] = {"meshes": watch.meshes, "exports": watch.exports - exports, "wrong": differing(watch.viewport)}
+        yield window.after(FEW_S, viewports.have_pictures)
+        result[name] = {"meshes": watch.meshes, "exports": watch.exports - exports, "wrong": differing(viewports.any)}
 
     for made in large:
         bpy.data.objects.remove(made)
@@ -295,13 +264,12 @@ def steps() -> Iterator[Callable[[], bool]]:
             bpy.data.objects["undone"].data = ball()
             bpy.data.meshes.remove(mesh)
         for undo in (bpy.ops.ed.undo_push, bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo):
-            since_s = time.monotonic()
             with window.in_view():
                 undo()
-            yield lambda since_s=since_s: time.monotonic() > since_s + 5 * FEW_S and watch.rests()
+            yield window.after(5 * FEW_S, viewports.have_pictures)
             extent = max(vertex.co.length for vertex in bpy.data.objects["undone"].data.vertices)
-            undone.append([round(extent, 2), differing(watch.viewport)])
-    (window.FOLDER / "result.json").write_text(json.dumps(result))
+            undone.append([round(extent, 2), differing(viewports.any)])
+    window.write(result)
 
 
 window.follow(steps(), deadline_s=140.0)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import sys
-import time
-import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -18,10 +15,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import parts
+import window
+from window import FOLDER
 
-POLL_S = 0.05
-DEADLINE_S = 40.0
-FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 SPACE = "Filmic sRGB"
 
 
@@ -59,8 +55,10 @@ def image(name: str, value: float, path: Path | None = None) -> Any:
     return made
 
 
-def steps(watch: Watch, result: dict[str, Any]) -> Iterator[Callable[[], bool]]:
-    """Yields what must come true."""
+def steps() -> Iterator[Callable[[], bool]]:
+    addon_utils.enable("pivot")
+    parts.clear()
+    watch, result = Watch(), {}
 
     def exported(name: str, edit: Callable[[], Any]) -> Callable[[], bool]:
         """Of an edit: what it makes read."""
@@ -97,7 +95,7 @@ def steps(watch: Watch, result: dict[str, Any]) -> Iterator[Callable[[], bool]]:
         tree.links.new(node.outputs["Color"], emission.inputs[name])
     square = parts.quad("square", material=material)
     scene = bpy.context.scene
-    area = next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "VIEW_3D")
+    area = window.view()[1]
 
     def open_view() -> None:
         scene.render.engine = "PIVOT"
@@ -107,32 +105,7 @@ def steps(watch: Watch, result: dict[str, Any]) -> Iterator[Callable[[], bool]]:
     yield exported("moved", lambda: setattr(square, "location", (0, 0, 0.5)))
     yield exported("alpha mode", lambda: setattr(still, "alpha_mode", "CHANNEL_PACKED"))
     yield exported("frame", lambda: scene.frame_set(2))
+    window.write(result)
 
 
-def run() -> None:
-    result: dict[str, Any] = {}
-    addon_utils.enable("pivot")
-    parts.clear()
-    waiting = steps(Watch(), result)
-    state: dict[str, Any] = {"done": lambda: True, "since_s": time.monotonic()}
-
-    def tick() -> float | None:
-        try:
-            if time.monotonic() > state["since_s"] + DEADLINE_S:
-                raise TimeoutError(f"nothing was exported after {list(result)}")
-            if state["done"]():
-                state["done"], state["since_s"] = next(waiting), time.monotonic()
-        except StopIteration:
-            (FOLDER / "result.json").write_text(json.dumps(result))
-            bpy.ops.wm.quit_blender()
-            return None
-        except BaseException:
-            traceback.print_exc()
-            bpy.ops.wm.quit_blender()
-            return None
-        return POLL_S
-
-    bpy.app.timers.register(tick, first_interval=1.0)
-
-
-run()
+window.follow(steps(), deadline_s=60.0)

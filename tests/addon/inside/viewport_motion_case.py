@@ -6,29 +6,23 @@ where the view looked, or how strong the lamp before it was, when it was rendere
 
 from __future__ import annotations
 
-import json
 import math
 import sys
 import time
-import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import bpy
-
 # isort: split
-import addon_utils
 from mathutils import Euler
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import parts
+import window
 
 SECTORS = 40
 TICK_S = 0.01
 QUIET_S = 1.5  # without a new session
-DEADLINE_S = 60.0
-FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 
 
 class Watch:
@@ -36,7 +30,7 @@ class Watch:
 
     def __init__(self) -> None:
         self.k = 0  # what a picture of this moment shows
-        self.started_s = 0.0  # the last session, or step
+        self.started_s = 0.0  # the last session
         self.text: list[str] = []  # of the reports, in the last draw
         self.clear()
 
@@ -85,8 +79,9 @@ class Watch:
     def seen(self) -> dict[str, Any]:
         return {"sessions": self.sessions, "exports": self.exports, "draws": len(self.draws), "pictures": self.pictures}
 
-    def is_quiet(self) -> bool:
-        return time.monotonic() - self.started_s > QUIET_S
+    def quiet(self) -> Callable[[], bool]:
+        """Once no session has been started for a while from now on."""
+        return window.after(QUIET_S, lambda: time.monotonic() - self.started_s > QUIET_S)
 
 
 watch = Watch()
@@ -106,17 +101,12 @@ def look_at(region: Any, k: int) -> None:
     watch.k = k
 
 
-def steps() -> Iterator[bool]:
-    """Does one thing at a time; yields whether the viewport must come to rest before the next."""
-    bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
-    addon_utils.enable("pivot")
+def steps() -> Iterator[Callable[[], bool]]:
+    window.clear()
     watch.install()
-    for made in list(bpy.data.objects):
-        bpy.data.objects.remove(made)
-    yield False
-    window = bpy.context.window_manager.windows[0]
-    scene, layer = window.scene, window.view_layer
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    yield window.now
+    main, area = window.view()
+    scene, layer = main.scene, main.view_layer
     lamps = [lamp(k) for k in range(SECTORS)]
     light = parts.light("fill", "POINT", (0, 0, 100))
     parts.quad("catcher", (0, 0, 200)).is_shadow_catcher = True
@@ -126,78 +116,55 @@ def steps() -> Iterator[bool]:
     region.view_perspective, region.view_location, region.view_distance = "PERSP", (0, 0, 0), 0.001
     look_at(region, 0)
     area.spaces.active.shading.type = "RENDERED"
-    yield False
+    yield window.now
     result = {}
-    while not watch.pictures:
-        yield False
+    yield lambda: len(watch.pictures) > 0
 
     watch.clear()
     for k in range(SECTORS):
         look_at(region, k)
-        yield False
+        yield window.now
     result["orbit"] = watch.seen()
     look_at(region, 0)
     scene.pivot.samples = 4
-    yield True
+    yield watch.quiet()
 
     watch.clear()
     strength = lamps[0].active_material.node_tree.nodes["Emission"].inputs["Strength"]
     for watch.k in range(SECTORS):
         strength.default_value = watch.k + 1
         light.location.x = watch.k
-        yield False
+        yield window.now
     result["drag"] = watch.seen()
-    yield True
+    yield watch.quiet()
 
     watch.clear()
     for made in (lamps[1], light):
         made.select_set(True)
         layer.objects.active = made
-        yield False
+        yield window.now
     lamps[1].name = "renamed"
-    yield False
+    yield window.now
     scene.name = "also renamed"
-    next(area for area in window.screen.areas if area.type == "PROPERTIES").spaces.active.context = "WORLD"
-    yield False
+    next(area for area in main.screen.areas if area.type == "PROPERTIES").spaces.active.context = "WORLD"
+    yield window.now
     area.spaces.active.overlay.show_floor = False
-    yield True
+    yield watch.quiet()
     result["idle"] = watch.seen()
 
     watch.clear()
     for scene.pivot.seed in range(1, 4):
-        yield False
+        yield window.now
     scene.pivot.max_bounces = 2
-    yield True
+    yield watch.quiet()
     result["settings"] = watch.seen()
 
     watch.clear()
     lamps[1].hide_set(True)
-    yield True
+    yield watch.quiet()
     result["hidden"] = watch.seen()
     result["text"] = watch.text
-    (FOLDER / "result.json").write_text(json.dumps(result))
+    window.write(result)
 
 
-todo, began_s, must_rest = steps(), time.monotonic(), False
-
-
-def tick() -> float | None:
-    global must_rest
-    late = time.monotonic() - began_s > DEADLINE_S
-    if must_rest and not watch.is_quiet() and not late:
-        return TICK_S
-    try:
-        must_rest = next(todo)
-    except BaseException as ended:
-        if not isinstance(ended, StopIteration):
-            traceback.print_exc()
-        late = True
-    if late:
-        bpy.ops.wm.quit_blender()
-        return None
-    watch.started_s = time.monotonic()
-    return TICK_S
-
-
-bpy.context.preferences.view.show_splash = False
-bpy.app.timers.register(tick, first_interval=0.5, persistent=True)
+window.follow(steps(), deadline_s=60.0, poll_s=TICK_S)

@@ -6,7 +6,6 @@ Image Denoise's, or "". Writes FOLDER/result.json, and of what the screen shows 
 
 from __future__ import annotations
 
-import json
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -27,25 +26,21 @@ PASSES = ("COMBINED", "DEPTH", "NORMAL", "DIFFUSE_COLOR", "EMISSION", "INDIRECT"
 
 def steps() -> Iterator[Callable[[], bool]]:
     window.clear()
-    yield lambda: True
+    yield window.now
     import pivot.denoise as denoise
 
     if LIBRARY:
         denoise._candidates = lambda: iter([LIBRARY])
     module: Any = sys.modules["pivot.viewport"]
-    viewports: list[Any] = []
-    draw, draw_picture = module.Viewport.draw, module.draw_picture
+    viewports, module = window.Viewports(), sys.modules["pivot.viewport"]
+    draw_picture = module.draw_picture  # type: ignore[attr-defined]
     shown: list[Any] = [None]
-
-    def watched_draw(viewport: Any, *arguments: Any) -> None:
-        viewports[:] = [viewport]
-        draw(viewport, *arguments)
 
     def watched_picture(engine: Any, scene: Any, picture: Any, view: Any) -> None:
         draw_picture(engine, scene, picture, view)
         shown[0] = picture
 
-    module.Viewport.draw, module.draw_picture = watched_draw, watched_picture
+    module.draw_picture = watched_picture  # type: ignore[attr-defined]
     main, area = window.view()
     scene, space = main.scene, area.spaces.active
     floor = parts.quad("floor", (0, 0, 0), parts.shaded("white", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8, 1))[0])
@@ -62,30 +57,18 @@ def steps() -> Iterator[Callable[[], bool]]:
     space.shading.type = "RENDERED"
     result: dict[str, Any] = {}
 
-    def rests() -> bool:
-        own = viewports[0] if viewports else None
-        return (
-            own is not None
-            and not own._stale
-            and own._session is not None
-            and not own._is_first
-            and own._session.wait(0.0)
-            and own._is_end_shown
-            and own._denoiser.is_at_rest
-        )
-
     def kept(name: str, settle_s: float = 0.3) -> Callable[[], bool]:
         """What is shown once the viewport rests."""
         since_s = time.monotonic()
 
         def done() -> bool:
             waited_s = time.monotonic() - since_s
-            if waited_s < settle_s or (not rests() and waited_s < LATEST_S):
+            if waited_s < settle_s or (not viewports.rest() and waited_s < LATEST_S):
                 return False
             texture = shown[0].texture
             pixels = np.array(texture.read().to_list(), np.float32).reshape(texture.height, texture.width, -1)
             np.save(window.FOLDER / f"{name}.npy", pixels)
-            result[name] = {"samples": viewports[0]._session.samples_done, "rests": rests()}
+            result[name] = {"samples": viewports.any._session.samples_done, "rests": viewports.rest()}
             return True
 
         return done
@@ -99,9 +82,8 @@ def steps() -> Iterator[Callable[[], bool]]:
 
     scene.pivot.preview_pause = True
     space.region_3d.view_distance = 5
-    since_s = time.monotonic()
-    yield lambda: time.monotonic() > since_s + 0.5
-    result["paused"] = {"renders": viewports[0]._session is not None}
+    yield window.after(0.5)
+    result["paused"] = {"renders": viewports.any._session is not None}
     space.region_3d.view_distance = 4
     scene.pivot.preview_pause = False
     yield kept("resumed")
@@ -111,7 +93,7 @@ def steps() -> Iterator[Callable[[], bool]]:
     result["has denoiser"] = denoise.is_there()
     for scene.pivot.denoise_viewport in ("ALL", "INDIRECT", "NONE"):
         yield kept(f"denoise {scene.pivot.denoise_viewport.lower()}")
-    (window.FOLDER / "result.json").write_text(json.dumps(result))
+    window.write(result)
 
 
 window.follow(steps(), deadline_s=140.0)

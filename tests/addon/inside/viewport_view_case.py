@@ -5,7 +5,6 @@ Before a blue world stand a red and a green lamp. Blender tells where in the 3D 
 
 from __future__ import annotations
 
-import json
 import math
 import sys
 import time
@@ -74,7 +73,7 @@ ALL = ["red", "green", "red", "blue"]
 
 def steps() -> Iterator[Callable[[], bool]]:
     window.clear()
-    yield lambda: True
+    yield window.now
     viewport: Any = sys.modules["pivot.viewport"]
     sizes: list[tuple[int, int]] = [(0, 0)]
     start = viewport.Viewport._start
@@ -204,7 +203,7 @@ def steps() -> Iterator[Callable[[], bool]]:
             bpy.ops.screen.area_split(direction="VERTICAL", factor=0.7)
         yield seen("resized", ["blue"], lambda: [share(0.5, 0.1)])
     result["stretched"] = stretched
-    (window.FOLDER / "result.json").write_text(json.dumps(result))
+    window.write(result)
 
 
 window.follow(steps(), deadline_s=140.0)

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot
+from cycles_cases import SPHERE, _ball, by_both, directly_by_both
 
 BOUNCES = {"few_bounces": 2, "spread": 0}  # 1 of the others
 LIGHTS, OBJECTS = ("unshadowed", "spread", "excluded", "few_bounces"), ("hidden", "holdout", "indirect_only")
@@ -22,14 +22,8 @@ def main(folder: Path) -> Any:
         clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
         parts.quad("ground", material=clay).scale = (6, 6, 1)
         globals()[f"_{name}"](clay)
-        bounces = BOUNCES.get(name, 1)
-        _cycles(folder / f"{name}_CYCLES.exr", bounces)
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", bounces, "JOINT")
-        _cycles(folder / f"{name}_direct_CYCLES.exr", 0)
-        if name == "hidden":  # of meshes that shine
-            continue
-        bpy.context.scene.pivot.integrator = "ANALYTIC"
-        _pivot(folder / f"{name}_direct_ANALYTIC.exr", 0, "JOINT")
+        by_both(folder, name, BOUNCES.get(name, 1))
+        directly_by_both(folder, name, is_analytic=name != "hidden")  # of meshes that shine
     return [*LIGHTS, *OBJECTS]
 
 

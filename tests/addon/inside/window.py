@@ -1,11 +1,13 @@
-"""The 3D view of a Blender with a window, and what the screen shows of it."""
+"""The 3D view of a Blender with a window, what the screen shows of it, and steps that wait for one another."""
 
 from __future__ import annotations
 
+import json
 import struct
 import sys
 import time
 import traceback
+import weakref
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -56,9 +58,58 @@ def pixels(places: list[tuple[float, float]]) -> list[list[float]]:
     return found
 
 
-def follow(steps: Iterator[Callable[[], bool]], deadline_s: float) -> None:
+class Viewports:
+    """Those of pivot.viewport that are drawn."""
+
+    def __init__(self) -> None:
+        self.alive: weakref.WeakSet[Any] = weakref.WeakSet()
+        module: Any = sys.modules["pivot.viewport"]
+        draw = module.Viewport.draw
+
+        def watched_draw(viewport: Any, *arguments: Any) -> None:
+            self.alive.add(viewport)
+            draw(viewport, *arguments)
+
+        module.Viewport.draw = watched_draw
+
+    @property
+    def any(self) -> Any:
+        return next(iter(self.alive))
+
+    def have_pictures(self) -> bool:
+        """Whether all have one of the scene as it is."""
+        return len(self.alive) > 0 and all(
+            not own._stale and own._session is not None and (not own._is_first or own._session.wait(0.0))
+            for own in self.alive
+        )
+
+    def rest(self) -> bool:
+        """Whether all have ended, and shown it."""
+        return self.have_pictures() and all(
+            not own._is_first and own._session.wait(0.0) and own._is_end_shown and own._denoiser.is_at_rest
+            for own in self.alive
+        )
+
+
+def write(result: Any) -> None:
+    """For the test."""
+    (FOLDER / "result.json").write_text(json.dumps(result))
+
+
+def now() -> bool:
+    """What need not be waited for."""
+    return True
+
+
+def after(seconds: float, also: Callable[[], bool] = now) -> Callable[[], bool]:
+    """What comes true once so long has passed and something else is true."""
+    since_s = time.monotonic()
+    return lambda: time.monotonic() > since_s + seconds and also()
+
+
+def follow(steps: Iterator[Callable[[], bool]], deadline_s: float, poll_s: float = POLL_S) -> None:
     """Take the steps: each yields what must come true before the next, which is asked now and then. Then quit."""
-    waiting: list[Callable[[], bool]] = [lambda: True]
+    waiting: list[Callable[[], bool]] = [now]
     started_s = time.monotonic()
 
     def tick() -> float | None:
@@ -67,7 +118,7 @@ def follow(steps: Iterator[Callable[[], bool]], deadline_s: float) -> None:
                 raise TimeoutError("the steps took too long")
             if waiting[0]():
                 waiting[0] = next(steps)
-            return POLL_S
+            return poll_s
         except StopIteration:
             pass
         except BaseException:
