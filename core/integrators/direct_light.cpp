@@ -219,8 +219,8 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
               RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
                            .direction = samples.wi,
                            .near_m = Batch(0.0f),
-                        .far_m = select(adds, samples.reach_m, Batch(0.0f)),
-                        .time = vertices.point.time},
+                           .far_m = select(adds, samples.reach_m, Batch(0.0f)),
+                           .time = vertices.point.time},
               is_open, of_lights);
     };
     const BatchMask none(false);

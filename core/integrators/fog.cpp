@@ -165,13 +165,14 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
         const float phase = eval(vertex.phase, vertex.direction, wi);
         const float weight = strategy == LightSampling::light ? 1.0f : balance(pdf, phase);
         if (!is_usable(pdf)) return;
-        shadows_.push_back({.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m, .time = vertex.time},
-                            .light = vertex.throughput * radiance * (phase * weight / pdf),
-                            .bounce = bounce,
-                            .sample = vertex.sample,
-                            .dimension = dimension,
-                            .group = group,
-                            .links = links});
+        shadows_.push_back(
+            {.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m, .time = vertex.time},
+             .light = vertex.throughput * radiance * (phase * weight / pdf),
+             .bounce = bounce,
+             .sample = vertex.sample,
+             .dimension = dimension,
+             .group = group,
+             .links = links});
     };
     const bool is_lit_by_world = scene.world_rules().lights & visible_to_scatter;
     if (const Environment& environment = scene.environment();

@@ -88,7 +88,10 @@ Rgb shining_past_others_met(const Work& work, Fog* fog, std::uint32_t bounce, co
         const Vec3b emission = make_arrivals(scene, arrivals, bounce + 1, work.memory).material.emission;
         Rgb light(store(emission.x)[0], store(emission.y)[0], store(emission.z)[0]);
         light *= emission_weight(work, bounce, vertices, lights, lane, from.direction, bsdf_pdf_omega, *hit);
-        const Ray to_it{.origin = from.origin, .direction = from.direction, .far_m = hit->distance_m * shadow_reach, .time = from.time};
+        const Ray to_it{.origin = from.origin,
+                        .direction = from.direction,
+                        .far_m = hit->distance_m * shadow_reach,
+                        .time = from.time};
         light *= light_past_others(scene, to_it, links, shadow_path_of(work, bounce, path), 0, work.memory);
         if (fog) light *= fog->transmittance(to_it, path.sample, hit->instance);
         sum += light;

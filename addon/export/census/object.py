@@ -7,8 +7,6 @@ from typing import Any
 from .table import LeftOut, Table
 
 
-
-
 def _is_not_adaptive(modifiers: Any) -> bool:
     """Adaptive subdivision is the modifier's from Blender 5.0, before that the object's."""
     return not any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in modifiers)

@@ -256,6 +256,7 @@ class Scene:
         self.recording.mesh_motions[id] = SimpleNamespace(
             positions=np.array(positions), corner_normals=corner_normals, vertex_normals=vertex_normals
         )
+
     def set_world_light_group(self, light_group: int) -> None:
         pass
 
