@@ -11,6 +11,7 @@ import numpy as np
 import parts
 from cycles_cases import SPHERE, by_both, directly_by_both
 
+ANALYTIC_SAMPLES = 32
 CASES = ("leaves", "panes", "veils")
 
 
@@ -26,7 +27,7 @@ def main(folder: Path) -> Any:
         by_both(folder, name, 1)
         # The analytic integrator counts what is seen through, and what shades, each by itself.
         bpy.context.scene.cycles.transparent_max_bounces = 30
-        directly_by_both(folder, name)
+        directly_by_both(folder, name, ANALYTIC_SAMPLES)
     return list(CASES)
 
 

@@ -10,6 +10,7 @@ import bpy
 import parts
 from cycles_cases import SPHERE, _ball, by_both, directly_by_both
 
+ANALYTIC_SAMPLES = 32
 BOUNCES = {"few_bounces": 2, "spread": 0}  # 1 of the others
 LIGHTS, OBJECTS = ("unshadowed", "spread", "excluded", "few_bounces"), ("hidden", "holdout", "indirect_only")
 
@@ -23,7 +24,7 @@ def main(folder: Path) -> Any:
         parts.quad("ground", material=clay).scale = (6, 6, 1)
         globals()[f"_{name}"](clay)
         by_both(folder, name, BOUNCES.get(name, 1))
-        directly_by_both(folder, name, is_analytic=name != "hidden")  # of meshes that shine
+        directly_by_both(folder, name, ANALYTIC_SAMPLES, is_analytic=name != "hidden")  # of meshes that shine
     return [*LIGHTS, *OBJECTS]
 
 
