@@ -13,7 +13,8 @@
 namespace pivot {
 
 /// How vertices of a bounce sample the world: later ones bring less. Of balls under three skies, twice as many of both
-/// took a quarter from relMSE and cost as much more CPU; what is in the way makes most of the noise.
+/// took a quarter from relMSE and cost as much more CPU; what is in the way makes most of the noise. Candidates by the
+/// lobes too, two of them, left a tenth more noise on even surfaces and as much on glossy ones.
 struct WorldPlan {
     std::uint32_t candidates;  ///< as so many samples they count beside BSDF samples
     std::uint32_t rays;
