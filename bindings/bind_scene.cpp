@@ -7,6 +7,7 @@
 #include "bindings/arrays.h"
 #include "bindings/names.h"
 #include "bindings/register.h"
+#include "core/geometry/curves.h"
 #include "core/scene/scene.h"
 
 namespace pivot::bindings {
@@ -83,6 +84,29 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
         require_shape(*triangle_slots, prefix + "triangle_slots", {triangle_corners.shape(0)});
         const std::int32_t* slots = triangle_slots->data();
         mesh.triangle_slots.assign(slots, slots + triangle_slots->size());
+    }
+    const py::gil_scoped_release release;
+    return scene.add_mesh(std::move(mesh));
+}
+
+std::uint32_t add_curves(Scene& scene, const string& name, const FloatArray& positions, const FloatArray& radii_m,
+                         const IntArray& offsets, const string& shape, std::uint32_t subdivisions,
+                         const AttributeArrays& point_attributes, const optional<IntArray>& segment_slots) {
+    const string prefix = "curves '" + name + "': ";
+    require_shape(positions, prefix + "positions", {-1, 3});
+    require_shape(radii_m, prefix + "radii_m", {positions.shape(0)});
+    require_shape(offsets, prefix + "offsets", {-1});
+    const CurveSettings settings{
+        from_name<CurveShape>("shape", shape, {{"RIBBON", CurveShape::ribbon}, {"ROUND", CurveShape::round}}),
+        subdivisions};
+    Mesh mesh = make_curves(
+        name, {reinterpret_cast<const Vec3f*>(positions.data()), static_cast<std::size_t>(positions.shape(0))},
+        {radii_m.data(), static_cast<std::size_t>(radii_m.size())},
+        {offsets.data(), static_cast<std::size_t>(offsets.size())}, settings);
+    add_attributes(scene, mesh, point_attributes, positions.shape(0), false);
+    if (segment_slots) {
+        require_shape(*segment_slots, prefix + "segment_slots", {static_cast<py::ssize_t>(mesh.triangles.size())});
+        mesh.triangle_slots.assign(segment_slots->data(), segment_slots->data() + segment_slots->size());
     }
     const py::gil_scoped_release release;
     return scene.add_mesh(std::move(mesh));
@@ -281,6 +305,13 @@ void register_scene(py::module_& module) {
              "positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals "
              "(V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and "
              "(C, 1..4): what shaders read. Returns the mesh's id.")
+        .def("add_curves", &add_curves, py::arg("name"), py::arg("positions"), py::arg("radii_m"), py::arg("offsets"),
+             py::arg("shape") = "RIBBON", py::arg("subdivisions") = CurveSettings{}.subdivisions,
+             py::arg("point_attributes") = AttributeArrays{}, py::arg("segment_slots") = py::none(),
+             "Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each "
+             "curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or "
+             "ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what "
+             "is a mesh to all other functions.")
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
              py::arg("materials"), py::arg("hidden_from") = RayNames{}, py::arg("holdout") = false,

@@ -58,7 +58,15 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTIL
 EMBREE = re.compile(r'\brtc[A-Z]\w*|\bRTC[A-Z]\w*|#[ \t]*include[ \t]*[<"]embree')
 EMBREE_FILES = {
     f"core/scene/{name}"
-    for name in ("embree.h", "instance_bvhs.cpp", "instance_bvhs.h", "mesh_bvhs.cpp", "ray_tracer.cpp")
+    for name in (
+        "embree.h",
+        "embree_curves.cpp",
+        "inner_rays.cpp",
+        "instance_bvhs.cpp",
+        "instance_bvhs.h",
+        "mesh_bvhs.cpp",
+        "ray_tracer.cpp",
+    )
 }
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 

@@ -20,11 +20,25 @@ def rough_diffuse(weight: Value, tint: Value, roughness: Value) -> Lobe:
 
 def disney_diffuse(feed: Socket, owner: Owner, base: Value, opaque: Value) -> Lobe:
     """Principled's before Blender 4.0, with its sheen. [Cycles 3.4 svm/closure.h]"""
+    return _disney(feed, owner, (base * opaque).widened(), _sheen_before(feed, owner, base, opaque))
+
+
+def old_sheen(feed: Socket, owner: Owner, base: Value, opaque: Value) -> Lobe:
+    """The sheen of that alone."""
+    return _disney(feed, owner, owner.program.colour((0, 0, 0)), _sheen_before(feed, owner, base, opaque))
+
+
+def _disney(feed: Socket, owner: Owner, tint: Value, sheen: Value) -> Lobe:
+    shares = (("color", tint), ("sheen", sheen))
+    return Lobe("disney_diffuse", shares, (("roughness", number(feed.input("Roughness"), owner).clamped()),))
+
+
+def _sheen_before(feed: Socket, owner: Owner, base: Value, opaque: Value) -> Value:
+    """Principled's before Blender 4.0."""
     amount, program = number(feed.input("Sheen"), owner).at_least(0.0), owner.program
     white = program.colour((1, 1, 1))
     tint = program.mixed(number(feed.input("Sheen Tint"), owner).clamped(), white, hue(base))
-    shares = (("color", (base * opaque).widened()), ("sheen", (tint * amount * opaque).widened()))
-    return Lobe("disney_diffuse", shares, (("roughness", number(feed.input("Roughness"), owner).clamped()),))
+    return (tint * amount * opaque).widened()
 
 
 def hue(base: Value) -> Value:

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..report import naming
+from .attributes import is_of_mesh
 from .baked import Interior, is_placed, reads_place
 from .context import Context
 from .dielectric import Dielectric
@@ -37,6 +38,10 @@ class Slots:
     is_placed: bool  # what fills the object is as its first instance has it
     is_filled: bool = False
     shines: bool = False
+
+    def of_mesh(self) -> frozenset[str]:
+        """The attributes that are of meshes and curves."""
+        return frozenset(filter(is_of_mesh, self.attributes))
 
     def ids_without_surface(self) -> tuple[int, ...]:
         """Of faces that all have none: what the other slots have does not count."""
@@ -175,6 +180,8 @@ class MaterialTable:
             left_out.append("its triangles light others by a mean of each, in grey")
         if any(_is_frosted(dielectric) for dielectric in surface.dielectrics):
             left_out.append("lamps do not shine through its rough glass")
+        if any(lobe.kind == "subsurface" for lobe in surface.lobes):
+            left_out.append("what is scattered beneath its surface comes out where it entered, as from a diffuse one")
         for what in left_out:
             self._context.reporter.warn(f"{owner.name}: in the analytic integrator {what}. Fix: use Monte Carlo")
 

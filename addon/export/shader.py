@@ -11,9 +11,10 @@ from dataclasses import replace
 
 import bpy
 
-from . import cloth
+from . import cloth, subsurface
 from .census import INPUTS
 from .dielectric import Dielectric
+from .hair import principled_hair
 from .highlight import Highlight, f82, sides, sides_of_glossy
 from .layers import beneath_dielectric, brushed, coated, rotation
 from .lobe import Lobe
@@ -249,17 +250,32 @@ def _principled(feed: Socket, owner: Owner) -> Surface:
 def _principled_diffuse(
     feed: Socket, owner: Owner, base: Value, opaque: Value, ior: Value, tint: Value
 ) -> dict[str, Value | tuple[Lobe, ...]]:
-    """What Principled has of a diffuse lobe: before Blender 4.0 Disney's, of which the highlight takes no share."""
+    """What Principled has of a diffuse lobe, and beneath it: before Blender 4.0 Disney's, of which the highlight takes
+    no share."""
+    if opaque.is_always(0):
+        return {}
+    beneath = number(feed.input("Subsurface Weight", "Subsurface"), owner).clamped()
     if feed.find_input("Specular IOR Level") is None:
-        return {} if opaque.is_always(0) else {"lobes": (cloth.disney_diffuse(feed, owner, base, opaque),)}
-    target = feed.find_input("Diffuse Roughness")
-    if opaque.is_always(0) or target is None or is_constant(target, 0.0):
-        return {"diffuse": base * opaque}
+        if beneath.is_always(0):
+            return {"lobes": (cloth.disney_diffuse(feed, owner, base, opaque),)}
+        mixed = subsurface.old_base(feed, owner, base, beneath)
+        lobe = subsurface.of_principled(feed, owner, mixed, mixed * opaque, beneath, ior)
+        sheen = () if is_constant(feed.input("Sheen"), 0.0) else (cloth.old_sheen(feed, owner, base, opaque),)
+        return {"lobes": (lobe, *sheen)}
+    target, above = feed.find_input("Diffuse Roughness"), 1.0 - beneath
+    is_rough = not (target is None or is_constant(target, 0.0) or above.is_always(0))
     left = owner.program.number(1.0)
-    if not ior.is_always(1):
+    if (is_rough or not beneath.is_always(0)) and not ior.is_always(1):
         turned, multiscatter = normal(feed, owner), _multiscatter(feed, owner)
         left, _ = beneath_dielectric(owner.program, turned, _alpha(feed, owner), ior, tint, multiscatter)
-    return {"lobes": (cloth.rough_diffuse(base * opaque * left, base, number(target, owner).clamped()),)}
+    lobes = []
+    if not beneath.is_always(0):
+        weight = base.at_most(1.0) * beneath * opaque * left
+        lobes.append(subsurface.of_principled(feed, owner, base, weight, beneath, ior))
+    if not is_rough:
+        return {"diffuse": base * (opaque * above), "lobes": tuple(lobes)}
+    rough = cloth.rough_diffuse(base * (opaque * above) * left, base, number(target, owner).clamped())
+    return {"lobes": (*lobes, rough)}
 
 
 def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value) -> tuple[Dielectric, ...]:
@@ -359,6 +375,8 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_SHEEN": cloth.sheen,
     "BSDF_VELVET": cloth.velvet,
+    "BSDF_HAIR_PRINCIPLED": principled_hair,
+    "SUBSURFACE_SCATTERING": subsurface.node,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,
     "BSDF_METALLIC": _metallic,

@@ -575,6 +575,20 @@ class Scene:
         """
         One of several that take meshes from each other.
         """
+    def add_curves(
+        self,
+        name: str,
+        positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        radii_m: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        offsets: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
+        shape: str = "RIBBON",
+        subdivisions: typing.SupportsInt | typing.SupportsIndex = 3,
+        point_attributes: collections.abc.Mapping[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = {},
+        segment_slots: typing.Annotated[numpy.typing.ArrayLike, numpy.int32] | None = None,
+    ) -> int:
+        """
+        Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what is a mesh to all other functions.
+        """
     def add_instances(
         self,
         name: str,
@@ -1036,6 +1050,29 @@ LOBES: dict = {
     },
     "sheen": {"color": (3, 0.0, 3.4028234663852886e38), "roughness": (1, 0.0, 1.0)},
     "velvet": {"color": (3, 0.0, 3.4028234663852886e38), "sigma": (1, 0.0, 1.0)},
+    "hair": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "absorption": (3, 0.0, 3.4028234663852886e38),
+        "variance": (1, 9.999999974752427e-07, 3.4028234663852886e38),
+        "primary_variance": (1, 9.999999974752427e-07, 3.4028234663852886e38),
+        "scale": (1, 0.0010000000474974513, 3.4028234663852886e38),
+        "tilt_rad": (1, -1.600000023841858, 1.600000023841858),
+        "ior": (1, 1.0, 3.4028234663852886e38),
+    },
+    "subsurface": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "albedo": (3, 0.0, 1.0),
+        "radius_m": (3, 0.0, 3.4028234663852886e38),
+        "anisotropy": (1, -0.9900000095367432, 0.9900000095367432),
+        "ior": (1, 1.0099999904632568, 3.799999952316284),
+        "entry_alpha": (1, 0.0, 1.0),
+        "cosine_entry": (1, 0.0, 1.0),
+        "is_diffusion_length": (1, 0.0, 1.0),
+        "is_similar": (1, 0.0, 1.0),
+        "is_always_walked": (1, 0.0, 1.0),
+        "disney": (1, 0.0, 1.0),
+        "roughness": (1, 0.0, 1.0),
+    },
 }
 LOBES_WITH_NDF: list = ["tabulated"]
 MAX_LOBES: int = 3

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Attribute {
     std::vector<float> values;
 };
 
+struct Curves;
 /// What a mesh that deforms has at a time in place of its own; as many of each.
 struct MeshStep {
     std::vector<Vec3f> positions;
@@ -38,6 +40,7 @@ struct Mesh {
     std::vector<Vec3f> vertex_normals;       ///< empty: none; shading is flat where no corner has one either
     std::vector<Attribute> attributes;
     std::vector<std::uint16_t> triangle_slots;  ///< material slot; empty: all 0
+    std::shared_ptr<const Curves> curves;       ///< then there are no positions, see curves.h; none: a mesh
     std::vector<MeshStep> steps;                ///< at even times, the first at 0, the last at 1; empty: it is still
 
     std::size_t vertex_count() const { return positions.size() - 1; }

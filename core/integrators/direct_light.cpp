@@ -48,8 +48,8 @@ void move_lights(const Scene& scene, const VertexBatch& vertices, const LightPic
     }
 }
 
-/// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces that
-/// have lobes unlike a base's, are sampled one by one.
+/// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces whose
+/// lobes read tables, are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, std::uint32_t bounce,
                                    const VertexBatch& vertices, const LightPicks& picks, std::uint32_t dimension,
                                    SharedLamps& shared_lamps) {
@@ -68,7 +68,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
         if (picks.light[i] < lamp_count) shared_lamps.add(i, {picks.light[i], picks.expected_samples[i]});
     };
     const auto sample_kind = [&](const BatchMask& is_kind, const auto& sample_lanes) {
-        const BatchMask chosen = left && is_kind && is_like_base(vertices.surface);
+        const BatchMask chosen = left && is_kind;
         if (!any(chosen)) return;
         std::array<const Light*, batch_size> of_kind = lights;
         if (any(!chosen)) {
@@ -93,10 +93,16 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
         left = left && !sampled;
     };
     if (strategy == LightSampling::joint) {
-        const BatchMask is_area = gather([&](std::size_t i) {
-                                      return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
-                                  }) > Batch(0.0f);
-        sample_kind(!is_area, sample_cap_lights);
+        BatchMask is_area = gather([&](std::size_t i) {
+                                return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
+                            }) > Batch(0.0f);
+        const BatchMask is_plain = is_like_base(vertices.surface);
+        sample_kind(!is_area && is_plain, sample_cap_lights);
+        if (any(!is_plain)) {
+            const BatchMask is_known = has_common_highlights(vertices.surface);
+            sample_kind(!is_area && !is_plain && is_known, sample_cap_lights_by_lobes);
+            is_area = is_area && is_known;
+        }
         sample_kind(is_area,
                     [&](const VertexBatch& all, const std::array<const Light*, batch_size>& of_kind,
                         const Vec2b& u_place) { return sample_area_lights(all, of_kind, u_place, bounce == 0); });

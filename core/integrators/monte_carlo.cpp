@@ -2,11 +2,13 @@
 
 #include <numeric>
 
+#include "core/bsdf/subsurface_entry.h"
 #include "core/integrators/direct_light.h"
 #include "core/integrators/fog.h"
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
 #include "core/integrators/straight_paths.h"
+#include "core/integrators/subsurface.h"
 
 namespace pivot {
 namespace {
@@ -94,7 +96,10 @@ Batch least_alpha(const Work& work, const std::array<const Path*, batch_size>& l
     return Batch(0.5f) * safe_sqrt(Batch(1.0f) - pdf / Batch(work.settings.filter_glossy));
 }
 
-PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Path> paths) {
+/// What paths do at their vertices: they arrive from outside, or come out from beneath the surface.
+enum class Vertices { arrivals, exits };
+
+PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Path> paths, Vertices kind) {
     std::array<const Path*, batch_size> lanes;
     std::array<const Arrival*, batch_size> arrivals;
     std::array<Sampler, batch_size> samplers;
@@ -104,10 +109,18 @@ PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Pat
         samplers[i] = work.samplers[lanes[i]->sample];
     }
     const std::size_t count = batch_count(work.scene, std::span(arrivals).first(std::min(batch_size, paths.size())));
-    const ArrivalBatch arrived = make_arrivals(work.scene, std::span(arrivals).first(count), bounce, work.memory);
+    ArrivalBatch arrived = make_arrivals(work.scene, std::span(arrivals).first(count), bounce, work.memory);
+    if (kind == Vertices::exits) {
+        arrived.material = exit_material(work.scene, std::span(arrivals).first(count));
+        arrived.point.wo_local = Vec3b(Batch(0.0f), Batch(0.0f), Batch(1.0f));  // it is seen from nowhere
+    }
     for (std::size_t i = count; i < batch_size; ++i) lanes[i] = lanes[count - 1], samplers[i] = samplers[count - 1];
     PathBatch batch{paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
                     VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
+    if (!work.is_diffused.empty() && any(batch.vertices.surface.has_lobes()))
+        open_to_walks(batch.vertices.surface, gather([&](std::size_t i) {
+                                                  return work.is_diffused[lanes[i]->sample] ? 0.0f : 1.0f;
+                                              }) > Batch(0.0f));
     if (!work.min_pdf_omega.empty()) batch.vertices.surface = blurred(batch.vertices.surface, least_alpha(work, lanes));
     return batch;
 }
@@ -291,6 +304,7 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
             if (u_roulette[i] >= survival[i]) continue;
             path.throughput /= survival[i];
         }
+        if (!work.is_diffused.empty() && (path.arrival.ray_kind & diffuse_ray)) work.is_diffused[path.sample] = 1;
         next.push_back(path);
     }
     Vec3b light = sky + Vec3b(load(r), load(g), load(b));
@@ -301,12 +315,15 @@ void follow(const Work& work, Fog* fog, std::uint32_t bounce, const PathBatch& b
 }
 
 /// Traces a batch of paths from their vertices on, as many as it says: what light they bring there, and where they go
-/// next.
-std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std::uint32_t bounce,
-                         std::span<const Path> paths, Paths& next) {
-    const PathBatch batch = make_batch(work, bounce, paths);
+/// next, or come out from beneath.
+std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, Vertices kind, std::span<const Path> paths,
+                         Paths& next, Paths& exits) {
+    const std::uint32_t bounce = plan.bounce;
+    const PathBatch batch = make_batch(work, bounce, paths, kind);
     const std::size_t count = batch.paths.size();
-    if (bounce == 0)
+    if (kind == Vertices::exits) {
+        // What shines there was seen from outside, if at all.
+    } else if (bounce == 0)
         see_first_hits(work, batch);
     else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
         add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
@@ -323,6 +340,9 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, std
     add_light(work, bounce, batch, batch.lanes.throughput * direct);
     // The last rays are for light that is sampled by BSDF samples alone, or by both.
     BatchMask is_wanted = batch.vertices.is_vertex();
+    if (kind == Vertices::arrivals && !work.is_diffused.empty())
+        is_wanted = is_wanted && !walk_beneath(work, plan, batch.paths, batch.vertices,
+                                               batch.vertices.sampler.point(plan.dimensions.lobe()).x, exits);
     if (bounce == work.settings.max_bounces && !work.scene.has_unsampled_light())
         is_wanted =
             is_wanted && gather([&](std::size_t i) { return shared.at(i).empty() ? 0.0f : 1.0f; }) > Batch(0.0f);
@@ -353,6 +373,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
     ProgramMemory memory;
     std::vector<float> min_pdf_omega(settings.filter_glossy > 0.0f ? (has_media ? 2 : 1) * count : 0,
                                      std::numeric_limits<float>::infinity());
+    std::vector<std::uint8_t> is_diffused(scene.inner_rays().is_empty() ? 0 : (has_media ? 2 : 1) * count);
     std::vector<PassShares> pass_shares(passes.size());
     std::vector<Rgb> feature_worths(settings.denoising_passes ? (has_media ? 2 : 1) * count : 0, Rgb(1.0f));
     const Work work{scene,
@@ -361,13 +382,14 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                     has_media ? std::span<Sample>(own_samples) : samples,
                     memory,
                     min_pdf_omega,
+                    is_diffused,
                     passes,
                     pass_shares,
                     feature_worths};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;
-    Paths paths, next;
+    Paths paths, next, exits;
     std::vector<std::uint32_t> material_counts;
     start_paths(work, fog, camera_rays, paths);
     for (std::uint32_t bounce = 0; !paths.empty() || (fog && fog->has_paths()); ++bounce) {
@@ -376,7 +398,14 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
         if (fog) fog->scatter(bounce, next);
         const BouncePlan plan = plan_bounce(scene, bounce);
         for (std::span<const Path> left(paths); !left.empty();)
-            left = left.subspan(trace_bounce(work, fog, plan, bounce, left, next));
+            left = left.subspan(trace_bounce(work, fog, plan, Vertices::arrivals, left, next, exits));
+        if (!exits.empty()) {
+            sort_by_material(exits, paths, material_counts);
+            const BouncePlan beneath = plan_exits(plan);
+            for (std::span<const Path> left(exits); !left.empty();)
+                left = left.subspan(trace_bounce(work, fog, beneath, Vertices::exits, left, next, exits));
+            exits.clear();
+        }
         paths.swap(next);
     }
     if (!fog) return;

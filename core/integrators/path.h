@@ -38,6 +38,7 @@ struct Work {
     std::span<Sample> samples;
     ProgramMemory& memory;
     std::span<float> min_pdf_omega;       ///< of each path's BSDF samples so far; empty where nothing is blurred
+    std::span<std::uint8_t> is_diffused;  ///< whether anything diffuse reflected a path so far; empty: nobody asks
     std::span<SurfacePasses> passes{};    ///< of each sample that first meets a surface; empty: nobody asks
     std::span<PassShares> pass_shares{};  ///< likewise, of the path so far
     std::span<Rgb> feature_worths{};      ///< of each sample, how much mirrors and glass so far show of what a denoiser

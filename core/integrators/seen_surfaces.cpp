@@ -36,12 +36,12 @@ Vec3f uv_of(const Scene& scene, int attribute, const RayHit& hit) {
 }
 
 /// Tells where in the picture a surface was when the shutter opened, and will be when it closes.
-void tell_motion(const Scene& scene, const RayHit& hit, SurfacePasses& pass) {
+void tell_motion(const Scene& scene, const Arrival& arrival, SurfacePasses& pass) {
     const auto pixel_at = [&](float time) {
-        RayHit then = hit;
+        RayHit then = arrival.hit;
         then.time = time;
-        const HitTriangleOf<float> at = scene.hit_triangle(then);
-        const Vec2f& b = hit.barycentric;
+        const HitTriangleOf<float> at = scene.hit_triangle(then, arrival.direction);
+        const Vec2f& b = then.barycentric;
         const Vec3f place = at.corner_a + b.x * (at.corner_b - at.corner_a) + b.y * (at.corner_c - at.corner_a);
         return scene.camera().pixel_at(at.world_from_object.point(place), time);
     };
@@ -127,7 +127,7 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
                 if (!s.is_told) continue;
                 pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
-                if (tells_motion) tell_motion(scene, s.arrival.hit, pass);
+                if (tells_motion) tell_motion(scene, s.arrival, pass);
             }
         });
     std::ranges::stable_sort(mattes, {}, &SeenMatte::ray);

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/scene/mesh_bvhs.h"
+#include "core/scene/ray_tracer.h"
 
 namespace pivot {
 
@@ -37,6 +37,8 @@ struct EmbreeDevice {
     void build(RTCScene scene, std::size_t triangle_count, bool filters) const;
     /// positions: of the mesh's vertices. They and the mesh are read in place.
     Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const;
+    /// They are read in place.
+    Owned<RTCGeometry> make_curves(const Curves& curves) const;
 };
 
 /// A mesh in its own space.
@@ -46,5 +48,28 @@ struct MeshBvh {
     /// The mesh is read in place.
     MeshBvh(const EmbreeDevice& device, const Mesh& mesh, bool filters);
 };
+
+/// Calls one of Embree's rtcIntersect* and rtcOccluded*; version 3 wants a context before the rays.
+template <class Call, class Rays, class... Valid>
+void trace(Call call, RTCScene scene, Rays& rays, Valid... valid) {
+#if RTC_VERSION_MAJOR >= 4
+    call(valid..., scene, &rays, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    call(valid..., scene, &context, &rays);
+#endif
+}
+
+inline RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
+    RTCRay r{};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tnear = ray.near_m;
+    r.tfar = ray.far_m;
+    r.time = ray.time;
+    r.mask = mask;
+    return r;
+}
 
 }  // namespace pivot

@@ -140,6 +140,10 @@ void InstanceBvhs::attach_all() {
     for (const auto& [id, instance] : placed_) ++uses[instance.mesh];
     for (auto& [id, instance] : placed_) {
         if (instance.side != Side::none) continue;
+        if (meshes_.at(instance.mesh)->curves) {  // whose thickness is of their own space: flat there is none
+            if (instance.world_from_object.is_invertible()) attach_moving(id, instance);
+            continue;
+        }
         const std::size_t copied = shared_ || uses[instance.mesh] > 1 ? meshes_.at(instance.mesh)->triangles.size() : 0;
         const bool has_room = copied_triangles_ + copied <= (shared_ ? max_rebuilt_triangles : max_copied_triangles);
         // What is scaled flat has no space of its own to be traced in.

@@ -12,29 +12,6 @@ namespace {
 
 constexpr std::uint32_t shadow_mask = hides_light | filters_light;
 
-/// Calls one of Embree's rtcIntersect* and rtcOccluded*; version 3 wants a context before the rays.
-template <class Call, class Rays, class... Valid>
-void trace(Call call, RTCScene scene, Rays& rays, Valid... valid) {
-#if RTC_VERSION_MAJOR >= 4
-    call(valid..., scene, &rays, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    call(valid..., scene, &context, &rays);
-#endif
-}
-
-RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
-    RTCRay r{};
-    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tnear = ray.near_m;
-    r.tfar = ray.far_m;
-    r.time = ray.time;
-    r.mask = mask;
-    return r;
-}
-
 #ifdef __AVX2__
 using BatchRays = RTCRay8;
 using BatchHits = RTCRayHit8;

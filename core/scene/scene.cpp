@@ -5,6 +5,9 @@
 #include <thread>
 #include <utility>
 
+#include "core/bsdf/subsurface_entry.h"
+#include "core/geometry/curves.h"
+
 namespace pivot {
 namespace {
 
@@ -20,6 +23,7 @@ void require_finite(const Transform& t, const std::string& object) {
 }
 
 void require_valid(const Mesh& mesh) {
+    if (mesh.curves) return;  // make_curves() has looked at them
     const auto fail = [&](const std::string& what) {
         throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
     };
@@ -304,6 +308,7 @@ void Scene::commit() {
     commit_motion();
     media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
     ray_tracer_.commit();
+    commit_inner_rays();
     for (const Shader& shader : shaders_) shader.program.make_image_levels();
     world_.program.make_image_levels();
     commit_lamps();
@@ -337,6 +342,15 @@ Batch Scene::filtered(const RayOf<Batch>& rays, const std::array<std::uint32_t, 
         return !shaders_[pivot::material_of(instance, *meshes_[instance.mesh], triangle)].is_transparent();
     };
     return ray_tracer_.filtered(rays, most, is_opaque, found);
+}
+
+void Scene::commit_inner_rays() {
+    std::vector<bool> has_inside(instances_.size());
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        has_inside[i] = instances_[i] && std::ranges::any_of(instances_[i]->materials, [&](std::uint32_t id) {
+                            return has_subsurface(shaders_[id].constants);
+                        });
+    inner_rays_.set(meshes_, instances_, has_inside);
 }
 
 void Scene::commit_lamps() {
@@ -452,6 +466,7 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
         const Mesh& mesh = *meshes_[instances_[i]->mesh];
+        if (mesh.curves) continue;
         auto& of_mesh = sites[instances_[i]->mesh];
         if (!of_mesh) of_mesh = std::make_shared<const BentConeSites>(mesh);
         cones[i].emplace(ray_tracer_, mesh, of_mesh, instances_[i]->world_from_object, reach, should_stop);
@@ -461,8 +476,17 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     bent_cone_reach_ = std::move(reach);
 }
 
-HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
-    return triangle_at(*instances_[hit.instance], mesh_of(hit), hit.triangle, hit.time);
+HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit, const Vec3f& direction) const {
+    const Instance& instance = *instances_[hit.instance];
+    const Mesh& mesh = *meshes_[instance.mesh];
+    if (!mesh.curves) return triangle_at(instance, mesh, hit.triangle, hit.time);
+    const Transform world_from_object = instance.motion ? instance.motion->at(hit.time) : instance.world_from_object;
+    const Vec3f direction_object = glm::inverse(world_from_object.linear) * direction;
+    HitTriangleOf<float> triangle = touching_triangle(*mesh.curves, hit.triangle, hit.barycentric, direction_object);
+    triangle.world_from_object = world_from_object;
+    triangle.normal_matrix = world_from_object.normal_matrix();
+    triangle.time = hit.time;
+    return triangle;
 }
 
 }  // namespace pivot

@@ -10,6 +10,7 @@
 #include "core/lights/light_tree.h"
 #include "core/scene/bent_cones.h"
 #include "core/scene/camera.h"
+#include "core/scene/inner_rays.h"
 #include "core/scene/light_rules.h"
 #include "core/scene/media.h"
 #include "core/scene/triangle_lights.h"
@@ -32,7 +33,8 @@ struct SharedMeshes {
 class Scene {
    public:
     Scene() = default;
-    explicit Scene(std::shared_ptr<SharedMeshes> shared) : shared_(std::move(shared)), ray_tracer_(shared_->bvhs) {}
+    explicit Scene(std::shared_ptr<SharedMeshes> shared)
+        : shared_(std::move(shared)), ray_tracer_(shared_->bvhs), inner_rays_(shared_->bvhs) {}
 
     std::uint32_t add_mesh(Mesh mesh);
     /// One that another scene has, by the same SharedMeshes.
@@ -138,12 +140,15 @@ class Scene {
                    std::span<std::optional<RayHit>> hits) const {
         ray_tracer_.intersect(rays, from, hits);
     }
+    /// Inside those instances beneath whose surface light goes; of no instance in most scenes.
+    const InnerRays& inner_rays() const { return inner_rays_; }
     bool has_holdouts() const { return has_holdouts_; }
     bool is_holdout(const RayHit& hit) const { return instances_[hit.instance]->is_holdout; }
     Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
-    HitTriangleOf<float> hit_triangle(const RayHit& hit) const;
+    /// direction: of the ray, world, of any length.
+    HitTriangleOf<float> hit_triangle(const RayHit& hit, const Vec3f& direction) const;
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
-        return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
+        return pivot::surface_point(hit_triangle(hit, ray.direction), hit.barycentric, -ray.direction);
     }
     /// What every material means; an id is its place.
     std::span<const Shader> shaders() const { return shaders_; }
@@ -159,7 +164,8 @@ class Scene {
     const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
-        return bent_cones_[hit.instance]->at(hit, point.front > 0.0f);
+        const std::optional<BentCones>& cones = bent_cones_[hit.instance];  // none of curves
+        return cones ? cones->at(hit, point.front > 0.0f) : Cap<float>{point.frame.z, 1.0f};
     }
 
    private:
@@ -179,6 +185,7 @@ class Scene {
     void require_materials(const Instance& instance) const;
     bool is_moving(std::uint32_t instance) const;
     void commit_visibility();
+    void commit_inner_rays();
     void commit_motion();
     void commit_lamps();
     void commit_triangle_lights();
@@ -208,6 +215,7 @@ class Scene {
     Camera camera_;
     CameraFacts camera_facts_;
     RayTracer ray_tracer_;
+    InnerRays inner_rays_;
     std::unique_ptr<const Media> media_;
     bool has_transparency_ = false, has_holdouts_ = false, moves_ = false;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time

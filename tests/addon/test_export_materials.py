@@ -286,7 +286,6 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
     expected: dict[str, list[str | None]] = {
         "no_image": ["Image Texture"],
         "beckmann": ["Glossy BSDF"],
-        "coated": ["Principled BSDF"],
         "fog": ["Principled Volume"],
         "many_highlights": [None],
         "no_surface": [None],

@@ -32,7 +32,8 @@ def direction(theta: float, phi: float = 0.4) -> tuple[float, float, float]:
 
 def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
     """A lobe with parameters from most of their ranges, those without an end up to one more than the least; none from
-    the lowest tenth, where lobes may be finer than the cells that count them."""
+    the lowest tenth, where lobes may be finer than the cells that count them. Light that goes beneath a surface comes
+    out where it entered: what walks there is no lobe."""
     random = np.random.default_rng(seed)
     values: dict[str, object] = {}
     for name, (count, low, high) in pivot_core.LOBES[kind].items():
@@ -40,6 +41,8 @@ def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
         values[name] = tuple(drawn) if count > 1 else float(drawn[0])
     if "normal" in values:
         values["normal"] = direction(random.uniform(0, 0.2), random.uniform(0, 2 * np.pi))
+    if "radius_m" in values:
+        values["radius_m"] = (0.0, 0.0, 0.0)
     if kind in pivot_core.LOBES_WITH_NDF:
         values["ndf"] = two_yarns(*random.uniform((0.1, 0.2, 0.1), (0.2, 0.4, 0.5)))
     return kind, values

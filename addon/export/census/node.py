@@ -19,13 +19,15 @@ NODE = {
         bl_height_default bl_height_min bl_height_max location_absolute color_tag warning_propagation panel_states@5.2
         """,
     ),
-    "ShaderNodeBsdfPrincipled": Table(used="distribution", no_meaning="subsurface_method"),
+    "ShaderNodeBsdfPrincipled": Table(used="distribution subsurface_method"),
+    "ShaderNodeSubsurfaceScattering": Table(used="falloff"),
     "ShaderNodeBsdfAnisotropic": Table(used="distribution"),
     "ShaderNodeBsdfGlossy": Table(used="distribution"),
     "ShaderNodeBsdfGlass": Table(used="distribution"),
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
     "ShaderNodeBsdfSheen": Table(used="distribution"),
+    "ShaderNodeBsdfHairPrincipled": Table(used="model parametrization"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
@@ -128,19 +130,24 @@ INPUTS = {
         "Emission Color, Emission Strength, Normal, Transmission Weight, Transmission, Transmission Roughness, Alpha,"
         "Anisotropic, Anisotropic Rotation, Tangent, Coat Weight, Coat Roughness, Coat IOR, Coat Tint, Coat Normal,"
         "Clearcoat, Clearcoat Roughness, Clearcoat Normal, Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint,"
-        "Sheen Roughness",
-        left_out=(
-            ("Subsurface Weight", 0.0),
-            ("Subsurface", 0.0),
-            ("Thin Film Thickness", 0.0),
-        ),
-        no_meaning="Subsurface Radius, Subsurface Color, Subsurface Scale, Subsurface IOR, Subsurface Anisotropy,"
-        "Thin Wall@5.2,"
+        "Sheen Roughness, Subsurface Weight, Subsurface, Subsurface Radius, Subsurface Color, Subsurface Scale,"
+        "Subsurface IOR, Subsurface Anisotropy",
+        left_out=(("Thin Film Thickness", 0.0),),
+        no_meaning="Thin Wall@5.2,"
         "Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Thin Film IOR, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
+    # What is Huang's alone is reported with the model.
+    "ShaderNodeBsdfHairPrincipled": Inputs(
+        "Color, Melanin, Melanin Redness, Tint, Absorption Coefficient, Roughness, Radial Roughness, Coat, IOR, Offset,"
+        "Random Color, Random Roughness, Random",
+        no_meaning="Weight, Aspect Ratio, R lobe, TT lobe, TRT lobe",
+    ),
+    "ShaderNodeSubsurfaceScattering": Inputs(
+        "Color, Scale, Radius, IOR, Roughness, Anisotropy, Normal", no_meaning="Weight"
+    ),
     "ShaderNodeBsdfTranslucent": Inputs("Color, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfAnisotropic": Inputs("Color, Roughness, Normal, Anisotropy, Rotation, Tangent", no_meaning="Weight"),
@@ -235,6 +242,7 @@ INPUTS = {
     "ShaderNodeVertexColor": Inputs(),
     "ShaderNodeObjectInfo": Inputs(),
     "ShaderNodeParticleInfo": Inputs(),
+    "ShaderNodeHairInfo": Inputs(),
     "ShaderNodeLightPath": Inputs(),
     "ShaderNodeCameraData": Inputs(),
     "ShaderNodeLayerWeight": Inputs("Blend, Normal"),

@@ -130,11 +130,12 @@ SCENE = {
         preview_denoising_upscale_quality@5.3
         """,
     ),
-    "CyclesCurveRenderSettings": Table(no_meaning="name shape subdivisions"),
+    "CyclesCurveRenderSettings": Table(used="shape subdivisions", no_meaning="name"),
     "ViewLayer": Table(
         used="""
         name material_override world_override samples use use_solid use_sky layer_collection objects depsgraph
-        use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color use_pass_emit
+        use_strand use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color
+        use_pass_emit
         use_pass_diffuse_direct use_pass_diffuse_indirect use_pass_glossy_direct use_pass_glossy_indirect
         use_pass_glossy_color use_pass_transmission_direct use_pass_transmission_indirect use_pass_transmission_color
         use_pass_cryptomatte_object use_pass_cryptomatte_material use_pass_cryptomatte_asset pass_cryptomatte_depth
@@ -150,10 +151,9 @@ SCENE = {
             LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
             LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
         ),
-        # Hair is reported where it is.
         no_meaning="""
         pass_alpha_threshold eevee active_aov active_aov_index active_lightgroup active_lightgroup_index
-        use_pass_cryptomatte_accurate use_ao use_strand
+        use_pass_cryptomatte_accurate use_ao
         active_layer_collection use_freestyle freestyle_settings has_export_collections use_grease_pencil
         use_pass_grease_pencil
         """,

@@ -23,6 +23,7 @@ KINDS = (
     "Material",
     "MaterialSlot",
     "Volume",
+    "Curves",
     "Scene",
     "ViewLayer",
     "LayerCollection",
@@ -208,11 +209,6 @@ def _of_collection(census: Any, struct: Any, name: str) -> list[str]:
         census.report_left_out(struct, "owner", said)
         (bpy.ops.scene.view_layer_remove_aov if name == "aovs" else bpy.ops.scene.view_layer_remove_lightgroup)()
         del made
-    if name == "particle_systems" and struct.type == "MESH":
-        modifier = struct.modifiers.new("hair", "PARTICLE_SYSTEM")
-        struct.particle_systems[0].settings.type = "HAIR"
-        census.report_left_out(struct, "owner", said)
-        struct.modifiers.remove(modifier)
     if name == "modifiers" and struct.type == "MESH":
         modifier = struct.modifiers.new("subdivision", "SUBSURF")
         if hasattr(modifier, "use_adaptive_subdivision"):  # from Blender 5.0

@@ -190,8 +190,8 @@ def _nearest() -> None:
     if bpy.app.version >= (4, 3):
         shader("rough_plastic", principled, Base_Color=RED, Diffuse_Roughness=0.7)
     shader("beckmann", "ShaderNodeBsdfGlossy", Color=RED, Roughness=0.5).distribution = "BECKMANN"
-    left_out = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Subsurface Weight" if NEW else "Subsurface": 1.0}
-    shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **left_out)
+    layers = {"Coat Weight" if NEW else "Clearcoat": 1.0, "Subsurface Weight" if NEW else "Subsurface": 1.0}
+    shader("coated", "ShaderNodeBsdfPrincipled", Base_Color=RED, Alpha=0.5, **layers)
     feed(shader("fog", "ShaderNodeVolumePrincipled"), "Color", "ShaderNodeTexNoise")
     kind = "Coat" if NEW else "Clearcoat"
     lacquer = {"Coat Weight" if NEW else "Clearcoat": 0.5, f"{kind} Roughness": 0.5}
