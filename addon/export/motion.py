@@ -263,6 +263,11 @@ class _ObjectMotion:
             with edits_applied(instance.object) as mesh:
                 rest = mesh_arrays(mesh)
             looks = self._meshes[index]
+            if self._blurs and instance.object.original.as_pointer() in self._context.placed.with_curves:
+                self._context.reporter.warn(
+                    f"object '{instance.object.name}': motion blur of how its strands deform is not supported, they "
+                    "move as they are in the middle"
+                )
             steps = [looks.get(time, rest) for time in times_of(self._moving[index].steps)]
             if any(step is None or _shape(step) != _shape(rest) for step in steps):
                 self._context.reporter.warn(

@@ -316,7 +316,10 @@ class _Exporter:
         with naming(f"object '{name}'", "correct these points, or what makes them"):
             settings = curve_settings(self._context.depsgraph.scene_eval)
             curves = self._context.scene.add_curves(name, **vars(arrays), **settings)
-        return _group_of(blender_object, curves, (material,), False, self._context.mattes, slots.attributes)
+        self._context.placed.with_curves.add(blender_object.original.as_pointer())
+        return _group_of(
+            blender_object, curves, (material,), False, self._context.mattes, slots.attributes, is_filled=False
+        )
 
     def _smoke_groups(self, interior: Interior, domain: Any, slot_materials: list[Any]) -> list[_Group]:
         """A domain as Cycles has it: its volume within its mesh, and no surface."""

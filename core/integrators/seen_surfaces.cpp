@@ -133,7 +133,7 @@ void tell_motion(const Scene& scene, const Arrival& arrival, SurfacePasses& pass
         RayHit then = arrival.hit;
         then.time = time;
         const HitTriangleOf<float> at = scene.hit_triangle(then, arrival.direction);
-        const Vec2f& b = arrival.hit.barycentric;
+        const Vec2f& b = then.barycentric;
         const Vec3f place = at.corner_a + b.x * (at.corner_b - at.corner_a) + b.y * (at.corner_c - at.corner_a);
         return scene.camera().pixel_at(at.world_from_object.point(place), time);
     };
