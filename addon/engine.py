@@ -13,6 +13,7 @@ from . import core, denoise
 from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
 from .export.images import ImageCache
+from .export.motion import export_motion, in_the_middle, shutter_of
 from .export.scene import export_scene
 from .frame_line import FrameCount, frame_line, other_engine_line
 from .memory import check_memory, picture_bytes
@@ -34,8 +35,10 @@ from .viewport import Viewport
 
 _POLL_S = 0.05  # how soon Esc is seen
 _UPDATE_S = 0.4  # between pictures shown while rendering
+_PREVIEW_UPDATE_S = 0.1
 _PREVIEW_SAMPLES = 16
-_PREVIEW_BOUNCES = 2
+_PREVIEW_BOUNCES = 4
+_PREVIEW_S = 0.4  # later a preview begins no more samples than its first
 
 
 class _Cancelled(Exception):
@@ -52,6 +55,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
     # Of the frame being rendered, a FrameCount: typing keeps what ClassVar is given, and bpy 4.5 then hangs at exit.
     frame_count: ClassVar[Any] = FrameCount()
     images: ClassVar[Any] = ImageCache()  # of the job: Blender makes an engine for each frame
+    preview_images: ClassVar[Any] = ImageCache()  # of the one before and this one
     strict: ClassVar[bool] = False  # warnings are errors
     viewport: Viewport | None = None  # of the 3D view this engine draws
 
@@ -81,6 +85,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         except Exception as error:
             traceback.print_exc()
             self._fail(f"internal error: {type(error).__name__}: {error}")
+        if self.is_preview:
+            self.preview_images.sweep()
 
     def _fail(self, text: str) -> None:
         """Say what is wrong. The report makes headless Blender exit with a fault and write no picture."""
@@ -103,13 +109,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         result = self.begin_result(0, 0, *frame.window_size, layer=depsgraph.view_layer.name, view=view)
         done = False
         try:
-            if context is None:
-                self.update_stats("", "Exporting the scene")
-                say = _say_nothing if self.is_preview else self.report
-                reporter = Reporter(say, self.said_in_job)
-                cache = ImageCache() if self.is_preview else self.images
-                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
-            export_camera(context, self, frame)
+            context = self._export(native, depsgraph, frame, context)
             if self.strict:
                 context.reporter.refuse()
             samples, bounces = sample_count(depsgraph), depsgraph.scene.pivot.max_bounces
@@ -128,6 +128,23 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             done = True
         finally:
             self.end_result(result, cancel=not done)
+        return context
+
+    def _export(self, native: Any, depsgraph: bpy.types.Depsgraph, frame: Frame, known: Context | None) -> Context:
+        """The scene and this view's camera. known: the scene as another view has it, None for the first."""
+        shutter = None if self.is_preview else shutter_of(depsgraph.scene, depsgraph.view_layer)
+        with in_the_middle(self, depsgraph.scene, shutter):
+            context = known
+            if context is None:
+                self.update_stats("", "Exporting the scene")
+                say = _say_nothing if self.is_preview else self.report
+                reporter = Reporter(say, self.said_in_job)
+                cache = self.preview_images if self.is_preview else self.images
+                context = export_scene(native, depsgraph, reporter, self._check_cancel, cache)
+            motion = None
+            if shutter is not None:
+                motion = export_motion(context, self, shutter, self._check_cancel, only_camera=known is not None)
+            export_camera(context, self, frame, motion)
         return context
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
@@ -162,7 +179,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         mode: scene.pivot.denoise, or 'NONE' where that cannot be had.
         """
         progress = Progress(self, samples)
-        shown_s = 0.0
+        shown_s, update_s = 0.0, _PREVIEW_UPDATE_S if self.is_preview else _UPDATE_S
 
         def show(combined: Any = None) -> None:
             def read(name: str) -> Any:
@@ -179,14 +196,16 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             while not session.wait(_POLL_S):
                 self._check_cancel()
                 progress.show(session)
-                if not bpy.app.background and progress.elapsed_s - shown_s > _UPDATE_S:
+                if self.is_preview and progress.elapsed_s > _PREVIEW_S and session.samples_done > 0:
+                    session.stop()
+                if not bpy.app.background and progress.elapsed_s - shown_s > update_s:
                     show()
                     shown_s = progress.elapsed_s
         finally:
             session.stop()
         progress.show(session, last=True)
         try:
-            show(denoise.denoised(mode, session.read) if mode != "NONE" else None)
+            show(denoise.denoised(mode, session.read, is_quick=self.is_preview) if mode != "NONE" else None)
         except denoise.DenoiserError as error:  # the picture is there, with its noise
             show()
             reporter.warn(str(error))

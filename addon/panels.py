@@ -228,6 +228,22 @@ class PIVOT_MATERIAL_PT_fog(PivotPanel, bpy.types.Panel):
         _columns(self).prop(context.material.pivot, "phase")
 
 
+class PIVOT_WORLD_PT_preview(PivotPanel, bpy.types.Panel):
+    """Blender has one of its own for materials and lights only."""
+
+    bl_label = "Preview"
+    bl_context = "world"
+    bl_options = frozenset({"DEFAULT_CLOSED"})
+    bl_order = -1  # before Blender's own, as elsewhere
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.world) and super().poll(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.template_preview(context.world)
+
+
 class PIVOT_CAMERA_PT_panorama(PivotPanel, bpy.types.Panel):
     """Blender's own Lens panel shows these in Cycles alone."""
 
@@ -301,6 +317,7 @@ _CLASSES = (
     PIVOT_VIEWLAYER_PT_own_passes,
     PIVOT_OBJECT_PT_ray_visibility,
     PIVOT_MATERIAL_PT_fog,
+    PIVOT_WORLD_PT_preview,
     PIVOT_CAMERA_PT_panorama,
     PIVOT_LIGHT_PT_light,
 )

@@ -25,15 +25,16 @@ from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
 _POLL_S = 0.005  # how soon a first picture is seen to be there
 _REDRAW_S = 0.1  # between pictures of samples that add up
-_WAIT_S = 0.004  # a draw waits this long for a first picture, so that it may show its own view
+_REST_S = 0.02  # a view that has been seen so long is at rest; the hand moves it more often
 
 
 class Viewport:
     """What one 3D view renders. An edit exports the scene again; a move of the view only restarts the samples.
 
     The first picture of a view is as coarse as its Pace says and never stopped before it can be shown, so there are
-    pictures while things move without pause. It keeps no reference to its engine: the two are freed together, and with
-    them the threads.
+    pictures while things move without pause. The full one begins once that is on the screen and the view rests: before,
+    it would take the time of what the hand is to see. It keeps no reference to its engine: the two are freed together,
+    and with them the threads.
     """
 
     def __init__(self) -> None:
@@ -51,6 +52,8 @@ class Viewport:
         self._pace = Pace()
         self._session: Any = None
         self._is_first = False  # whether the session is to give the first picture of its view
+        self._seen_s: float | None = None  # when that was on the screen
+        self._whole: tuple[Any, float] | None = None  # settings and pixel edge of the session that is to follow it
         self._covers_px: Corners = (0.0, 0.0, 0.0, 0.0)  # by the session's pixels
         self._view: View | None = None  # of the session
         self._settings: dict[str, Any] = {}  # of what it shows
@@ -90,7 +93,7 @@ class Viewport:
     def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Draw the picture as it stands, and see that it gets better."""
         with _faults_shown(engine):
-            self._pace.drew()
+            self._pace.draw_begins()
             finished = True
             if depsgraph.scene.pivot.preview_pause:
                 self._stop()
@@ -104,6 +107,7 @@ class Viewport:
             if self._picture is not None:
                 draw_picture(engine, depsgraph.scene, self._picture, view_of(context, depsgraph))
             engine.update_stats("Pivot", " | ".join([state, *_in_short(self._warnings)]))
+            self._pace.draw_ends()
             if not finished:
                 self._watch(engine)
 
@@ -116,11 +120,15 @@ class Viewport:
         if self._local != local_parts(context.space_data):
             self._stale = True
         if self._awaits_first_picture(finished):
+            finished = self._take_picture(self._pace.wait_s)
+        if self._awaits_first_picture(finished):
             return False
         if self._stale:
             engine.tag_update()
             return False
         self._is_end_shown = finished = self._advance(engine, context, depsgraph, finished)
+        if self._awaits_first_picture(finished) and self._samples_read == 0:
+            self._take_picture(self._pace.wait_s)
         return finished and self._denoiser.is_at_rest
 
     def _choose(self, space: bpy.types.SpaceView3D, scene: bpy.types.Scene) -> None:
@@ -151,13 +159,10 @@ class Viewport:
         finest_px = engine.get_preview_pixel_size(scene)
         if self._session is None or (view, settings) != (self._view, self._settings):
             self._view, self._settings = view, settings
-            self._start_first(scene, finest_px)
-            self._take_picture(_WAIT_S)
+            self._whole = render_settings(self._core, scene, settings), finest_px
+            self._start_first(render_settings(self._core, scene, settings | {"samples": 1}), finest_px)
             return False
-        if finished and self._is_first:
-            self._start(scene, finest_px, settings["samples"])
-            return False
-        return finished
+        return finished and not self._is_first
 
     def _export(self, depsgraph: bpy.types.Depsgraph, space: bpy.types.SpaceView3D) -> None:
         """Take over the scene, and say on the console what of it is left out."""
@@ -205,22 +210,31 @@ class Viewport:
     def _awaits_first_picture(self, finished: bool) -> bool:
         return self._session is not None and self._is_first and not finished
 
-    def _start_first(self, scene: bpy.types.Scene, finest_px: float) -> None:
+    def _start_first(self, settings: Any, finest_px: float) -> None:
         """Begin with a view, by one sample of pixels that are ready soon."""
         left, bottom, right, top = self._view.window_px
-        self._start(scene, self._pace.pixel_px((right - left) * (top - bottom), finest_px), 1)
+        self._start(settings, self._pace.pixel_px((right - left) * (top - bottom), finest_px))
         self._is_first = True
 
-    def _start(self, scene: bpy.types.Scene, pixel_px: float, samples: int) -> None:
-        """Begin a session. pixel_px: the edge of its pixels."""
+    def _start(self, settings: Any, pixel_px: float) -> None:
+        """Begin a session. settings: pivot_core.RenderSettings. pixel_px: the edge of its pixels."""
         self._stop()
         self._covers_px = self._view.set_camera(self._core, self._scene, pixel_px)
-        settings = render_settings(self._core, scene, self._settings | {"samples": samples})
         self._session = self._core.Session(self._scene, settings)
         self._session.start()
         self._denoiser.forget()
         self._is_first = self._is_clean = self._is_end_shown = False
-        self._samples_read = 0
+        self._samples_read, self._seen_s = 0, None
+
+    def _go_on_at_rest(self) -> None:
+        """Begin the full picture of a view whose first picture has been on the screen for a while."""
+        if not self._is_first or self._samples_read == 0 or self._stale:
+            return
+        now_s = time.monotonic()
+        if self._seen_s is None:
+            self._seen_s = now_s
+        elif now_s > self._seen_s + _REST_S:
+            self._start(*self._whole)
 
     def _stop(self) -> None:
         if self._session is not None:
@@ -231,7 +245,7 @@ class Viewport:
         """Whether a draw would show what the last did not."""
         ended = self._session.wait(0.0)
         if self._is_first:
-            return ended
+            return ended and self._samples_read == 0
         if self._session.samples_done > self._samples_read:
             return self._samples_read == 0 or ended or time.monotonic() > self._read_s + _REDRAW_S
         return self._denoiser.has_result or (ended and not self._is_end_shown)
@@ -248,13 +262,15 @@ class Viewport:
                 if engine.is_preview or own is None:
                     return None
                 with _faults_shown(engine):
+                    own._pace.is_on_screen()
                     if own._session is not None and not own._has_news():
+                        own._go_on_at_rest()
                         return _POLL_S
                 own._is_watched = False
                 engine.tag_redraw()
             return None
 
-        bpy.app.timers.register(look, first_interval=_POLL_S)
+        bpy.app.timers.register(look)
 
 
 def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:

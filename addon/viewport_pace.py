@@ -5,30 +5,51 @@ from __future__ import annotations
 import math
 import time
 
-_LONGEST_S = 0.05  # of a picture: with what drawing takes, some 15 a second
-_SHORTEST_S = 0.02
-_DRAWS = 1.5  # a picture is ready by the second draw after the one that it is of
+_BETWEEN_S = 1 / 15  # pictures: what Blender's drawing leaves of it is theirs
+_LONGEST_S = 0.05  # of a picture
+_SHORTEST_S = 0.015
+_DRAWS = 1.5  # a picture that no draw waits for is ready by the second draw after the one that it is of
 _MOST_PX = 16.0  # edge of a pixel
 _STEP = 2**0.25  # edges differ by: a little more or less time changes none
 _STILL_S = 0.3  # draws further apart are of no movement
+_LEAST_WAIT_S = 0.004
+_MOST_WAIT_S = 0.1
 
 
 class Pace:
-    """It learns what a pixel takes from the pictures that were made, and how soon the next is wanted from the draws."""
+    """It learns what a pixel takes from the pictures that were made, and from the draws how soon the next is wanted.
+
+    Blender puts a draw on the screen after it, which takes as long as it takes: much without a graphics card.
+    """
 
     def __init__(self) -> None:
         self._pixel_s: float | None = None
         self._draw_s = 1.0
-        self._drawn_s = 0.0
+        self._began_s = 0.0
+        self._ended_s: float | None = None  # of a draw that is not yet known to be on the screen
+        self._onto_screen_s = 0.0
 
-    def drew(self) -> None:
-        """A draw begins."""
+    def draw_begins(self) -> None:
         now_s = time.monotonic()
-        since_s, self._drawn_s = now_s - self._drawn_s, now_s
+        since_s, self._began_s = now_s - self._began_s, now_s
         if since_s < _STILL_S:
             self._draw_s += 0.3 * (since_s - self._draw_s)
         else:
             self._draw_s = since_s
+
+    def draw_ends(self) -> None:
+        self._ended_s = time.monotonic()
+
+    def is_on_screen(self) -> None:
+        """Whatever was drawn is: Blender's loop goes on."""
+        if self._ended_s is not None:
+            self._onto_screen_s += 0.3 * (time.monotonic() - self._ended_s - self._onto_screen_s)
+            self._ended_s = None
+
+    @property
+    def wait_s(self) -> float:
+        """How long a draw waits for a picture of what it shows: as long as it would take to draw once more for it."""
+        return min(max(self._onto_screen_s, _LEAST_WAIT_S), _MOST_WAIT_S)
 
     def took(self, elapsed_s: float, pixel_count: int) -> None:
         """A picture of so many pixels with a sample in each was made; in so long."""
@@ -39,7 +60,8 @@ class Pace:
         """The edge of the pixels of a picture that would have so many if it were as fine as the region."""
         if self._pixel_s is None:
             return max(4.0, finest_px)
-        budget_s = min(max(_DRAWS * self._draw_s, _SHORTEST_S), _LONGEST_S)
+        wanted_s = min(_DRAWS * self._draw_s, _BETWEEN_S - self._onto_screen_s)
+        budget_s = min(max(wanted_s, _SHORTEST_S), _LONGEST_S)
         edge_px = math.sqrt(max(1.0, self._pixel_s * pixel_count / budget_s))
         step = math.ceil(math.log(edge_px, _STEP) - 0.5)
         return min(max(_STEP**step, finest_px), _MOST_PX)

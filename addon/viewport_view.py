@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
-from .export.optics import Optics, lens_of
+from .export.optics import Optics, lens_of, optics_of
 
 _KINDS = tuple(
     property_.identifier
@@ -71,12 +72,14 @@ def view_of(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> View:
     (left, bottom), (right, top) = (tuple(map(float, (side - offset) / scale)) for side in (-1, 1))
     size_px = region.width, region.height
     camera_to_world = np.array(region_3d.view_matrix.inverted())
-    corners, clip_m, lens = (0.0, 0.0, 1.0, 1.0), (space.clip_start, space.clip_end), None
+    corners, clip_m, lens, panorama = (0.0, 0.0, 1.0, 1.0), (space.clip_start, space.clip_end), None, None
     camera = _camera(space, region_3d, depsgraph)
     if camera is not None:
         frame = [corner.xy if is_orthographic else corner.xy / -corner.z for corner in _frame(camera, depsgraph)]
         (x0, y0), (x1, y1) = ((scale * corner + offset + 1) / 2 for corner in (frame[2], frame[0]))
         corners = _rendered(camera, space, depsgraph.scene.render, (x0, y0, x1, y1))
+        if camera.data.type == "PANO":
+            panorama = _panorama(camera, camera_to_world, depsgraph.scene.render, (x0, y0, x1, y1))
         clip_m = camera.data.clip_start, camera.data.clip_end
         lens = lens_of(camera.data, camera_to_world)
     else:
@@ -87,7 +90,7 @@ def view_of(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> View:
     kind = ("Orthographic",) if is_orthographic else ("Perspective",)
     return View(
         camera_to_world=tuple(map(tuple, camera_to_world.tolist())),
-        optics=Optics((left, right, bottom, top), clip_m, kind, lens),
+        optics=panorama or Optics((left, right, bottom, top), clip_m, kind, lens),
         size_px=size_px,
         window_px=_window(corners, size_px),
     )
@@ -104,6 +107,18 @@ def _camera(space: Any, region_3d: Any, depsgraph: bpy.types.Depsgraph) -> Any:
 def _frame(camera: Any, depsgraph: bpy.types.Depsgraph) -> Any:
     """The corners of a camera's frame in its own space: the top right one, then clockwise."""
     return camera.data.view_frame(scene=depsgraph.scene)
+
+
+def _panorama(camera: Any, camera_to_world: NDArray[np.float64], render: Any, frame: Corners) -> Optics:
+    """A panoramic camera's, so that its frame in the region, in shares of that, shows what is rendered."""
+    width, height = render.resolution_x * render.pixel_aspect_x, render.resolution_y * render.pixel_aspect_y
+    rendered = optics_of(camera, camera_to_world, camera.data.shift_x, width, height)
+    sides = []
+    for low, high, begin, end in zip(
+        rendered.view_plane[::2], rendered.view_plane[1::2], frame, frame[2:], strict=False
+    ):
+        sides += [low + (high - low) * (share - begin) / (end - begin) for share in (0.0, 1.0)]
+    return replace(rendered, view_plane=tuple(map(float, sides)))
 
 
 def _rendered(camera: Any, space: Any, render: Any, frame: Corners) -> Corners:

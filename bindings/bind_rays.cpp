@@ -14,7 +14,8 @@ constexpr std::size_t chunk_size = 1024;
 
 /// Calls visit(first, rays) for chunks of the rays: small enough for a cache, large enough for packets.
 template <class Visit>
-void for_each_chunk(const FloatArray& origins, const FloatArray& directions, const float* far_m, const Visit& visit) {
+void for_each_chunk(const FloatArray& origins, const FloatArray& directions, const float* far_m, const float* times,
+                    const Visit& visit) {
     require_shape(origins, "origins", {-1, 3});
     require_shape(directions, "directions", {origins.shape(0), 3});
     const auto count = static_cast<std::size_t>(origins.shape(0));
@@ -24,13 +25,20 @@ void for_each_chunk(const FloatArray& origins, const FloatArray& directions, con
         rays.clear();
         for (std::size_t i = first; i < std::min(first + chunk_size, count); ++i) {
             const float far = far_m ? far_m[i] : std::numeric_limits<float>::infinity();
-            rays.push_back({{o[3 * i], o[3 * i + 1], o[3 * i + 2]}, {d[3 * i], d[3 * i + 1], d[3 * i + 2]}, 0.0f, far});
+            rays.push_back({{o[3 * i], o[3 * i + 1], o[3 * i + 2]},
+                            {d[3 * i], d[3 * i + 1], d[3 * i + 2]},
+                            0.0f,
+                            far,
+                            times ? times[i] : middle_time});
         }
         visit(first, rays);
     }
 }
 
-py::tuple intersect(Scene& scene, const FloatArray& origins, const FloatArray& directions, bool packets) {
+py::tuple intersect(Scene& scene, const FloatArray& origins, const FloatArray& directions, bool packets,
+                    const std::optional<FloatArray>& times) {
+    if (times) require_shape(*times, "times", {origins.shape(0)});
+    const float* of_rays = times ? times->data() : nullptr;
     const SceneHold hold(scene);
     scene.commit();
     const py::ssize_t count = origins.shape(0);
@@ -38,7 +46,7 @@ py::tuple intersect(Scene& scene, const FloatArray& origins, const FloatArray& d
     py::array_t<std::int64_t> instance(count), triangle(count);
     py::array_t<float> barycentric({count, py::ssize_t(2)});
     std::vector<std::optional<RayHit>> hits(chunk_size);
-    for_each_chunk(origins, directions, nullptr, [&](std::size_t first, const std::vector<Ray>& rays) {
+    for_each_chunk(origins, directions, nullptr, of_rays, [&](std::size_t first, const std::vector<Ray>& rays) {
         if (packets) {
             scene.intersect(rays, visible_to_camera, hits);
         } else {
@@ -65,7 +73,7 @@ py::array_t<bool> occluded(Scene& scene, const FloatArray& origins, const FloatA
     py::array_t<bool> result(origins.shape(0));
     bool* out = result.mutable_data();
     std::vector<std::uint8_t> occluded_rays(chunk_size);
-    for_each_chunk(origins, directions, far_m.data(), [&](std::size_t first, const std::vector<Ray>& rays) {
+    for_each_chunk(origins, directions, far_m.data(), nullptr, [&](std::size_t first, const std::vector<Ray>& rays) {
         if (packets) {
             scene.occluded(rays, occluded_rays);
         } else {
@@ -80,10 +88,11 @@ py::array_t<bool> occluded(Scene& scene, const FloatArray& origins, const FloatA
 
 void register_rays(py::module_& module) {
     auto scene = module.attr("Scene").cast<py::class_<Scene, std::shared_ptr<Scene>>>();
-    scene.def(
-        "intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("packets") = true,
-        "Closest hits of rays (n, 3), unit directions: distance_m (n,), infinite where there is none; instance and "
-        "triangle (n,), -1 where there is none; barycentric (n, 2).");
+    scene.def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("packets") = true,
+              py::arg("times") = py::none(),
+              "Closest hits of rays (n, 3), unit directions, at times (n,), else in the middle: distance_m (n,), "
+              "infinite where there is none; instance and "
+              "triangle (n,), -1 where there is none; barycentric (n, 2).");
     scene.def("occluded", &occluded, py::arg("origins"), py::arg("directions"), py::arg("far_m"),
               py::arg("packets") = true, "Whether rays (n, 3) meet anything nearer than far_m (n,).");
 }

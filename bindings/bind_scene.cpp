@@ -7,6 +7,7 @@
 #include "bindings/arrays.h"
 #include "bindings/names.h"
 #include "bindings/register.h"
+#include "core/geometry/curves.h"
 #include "core/scene/scene.h"
 
 namespace pivot::bindings {
@@ -88,6 +89,29 @@ std::uint32_t add_mesh(Scene& scene, const string& name, const FloatArray& posit
     return scene.add_mesh(std::move(mesh));
 }
 
+std::uint32_t add_curves(Scene& scene, const string& name, const FloatArray& positions, const FloatArray& radii_m,
+                         const IntArray& offsets, const string& shape, std::uint32_t subdivisions,
+                         const AttributeArrays& point_attributes, const optional<IntArray>& segment_slots) {
+    const string prefix = "curves '" + name + "': ";
+    require_shape(positions, prefix + "positions", {-1, 3});
+    require_shape(radii_m, prefix + "radii_m", {positions.shape(0)});
+    require_shape(offsets, prefix + "offsets", {-1});
+    const CurveSettings settings{
+        from_name<CurveShape>("shape", shape, {{"RIBBON", CurveShape::ribbon}, {"ROUND", CurveShape::round}}),
+        subdivisions};
+    Mesh mesh = make_curves(
+        name, {reinterpret_cast<const Vec3f*>(positions.data()), static_cast<std::size_t>(positions.shape(0))},
+        {radii_m.data(), static_cast<std::size_t>(radii_m.size())},
+        {offsets.data(), static_cast<std::size_t>(offsets.size())}, settings);
+    add_attributes(scene, mesh, point_attributes, positions.shape(0), false);
+    if (segment_slots) {
+        require_shape(*segment_slots, prefix + "segment_slots", {static_cast<py::ssize_t>(mesh.triangles.size())});
+        mesh.triangle_slots.assign(segment_slots->data(), segment_slots->data() + segment_slots->size());
+    }
+    const py::gil_scoped_release release;
+    return scene.add_mesh(std::move(mesh));
+}
+
 using RayNames = std::vector<string>;
 
 /// All but what is named.
@@ -152,9 +176,38 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
                                transforms, facts);
 }
 
+std::shared_ptr<const MovingTransform> to_motion(const FloatArray& steps, const string& what) {
+    require_shape(steps, what, {-1, 4, 4});
+    if (steps.shape(0) < 2 || static_cast<std::size_t>(steps.shape(0)) > MovingTransform::max_steps)
+        throw py::value_error(what + " must have 2 to 129 steps");
+    std::vector<Transform> transforms;
+    for (py::ssize_t i = 0; i < steps.shape(0); ++i) transforms.push_back(to_transform(steps.data(i)));
+    return std::make_shared<const MovingTransform>(transforms);
+}
+
+void set_mesh_motion(Scene& scene, std::uint32_t id, const std::vector<FloatArray>& positions,
+                     const optional<std::vector<FloatArray>>& corner_normals,
+                     const optional<std::vector<FloatArray>>& vertex_normals) {
+    const auto rows_of = [&](const optional<std::vector<FloatArray>>& steps, std::size_t i, const string& what) {
+        if (!steps) return std::vector<Vec3f>();
+        if (steps->size() != positions.size()) throw py::value_error(what + " must have as many steps as positions");
+        require_shape((*steps)[i], what, {-1, 3});
+        return copy_rows<Vec3f>((*steps)[i]);
+    };
+    std::vector<MeshStep> steps;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        require_shape(positions[i], "positions", {-1, 3});
+        steps.push_back({.positions = copy_rows<Vec3f>(positions[i], 1),
+                         .corner_normals = rows_of(corner_normals, i, "corner_normals"),
+                         .vertex_normals = rows_of(vertex_normals, i, "vertex_normals")});
+    }
+    scene.set_mesh_motion(id, std::move(steps));
+}
+
 void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::array<float, 4>& view_plane, int width,
                 int height, const optional<std::array<int, 4>>& window, float clip_start_m, float clip_end_m,
-                const optional<Projection>& projection, const optional<Lens>& lens) {
+                const optional<Projection>& projection, const optional<Lens>& lens, const optional<FloatArray>& motion,
+                const optional<std::vector<float>>& shutter) {
     require_shape(camera_to_world, "camera: camera_to_world", {4, 4});
     Camera camera;
     camera.world_from_camera = to_transform(camera_to_world.data());
@@ -167,6 +220,8 @@ void set_camera(Scene& scene, const FloatArray& camera_to_world, const std::arra
     camera.clip_end_m = clip_end_m;
     camera.projection = projection.value_or(Perspective{});
     camera.lens = lens.value_or(Lens{});
+    if (motion) camera.motion = to_motion(*motion, "camera: motion");
+    if (shutter) camera.shutter = std::make_shared<const Shutter>(*shutter);
     scene.set_camera(camera);
 }
 
@@ -249,6 +304,13 @@ void register_scene(py::module_& module) {
              "positions (V, 3), corner_vertices (C,), triangle_corners (T, 3), corner_normals (C, 3) or vertex_normals "
              "(V, 3), without both flat shading, triangle_slots (T,) material slots; attributes by name, (V, 1..4) and "
              "(C, 1..4): what shaders read. Returns the mesh's id.")
+        .def("add_curves", &add_curves, py::arg("name"), py::arg("positions"), py::arg("radii_m"), py::arg("offsets"),
+             py::arg("shape") = "RIBBON", py::arg("subdivisions") = CurveSettings{}.subdivisions,
+             py::arg("point_attributes") = AttributeArrays{}, py::arg("segment_slots") = py::none(),
+             "Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each "
+             "curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or "
+             "ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what "
+             "is a mesh to all other functions.")
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),
              py::arg("materials"), py::arg("hidden_from") = RayNames{}, py::arg("holdout") = false,
@@ -298,6 +360,16 @@ void register_scene(py::module_& module) {
             },
             py::arg("id"), py::arg("object_to_world"))
         .def(
+            "set_instance_motion",
+            [](Scene& scene, std::uint32_t id, const FloatArray& object_to_world) {
+                scene.set_instance_motion(id, to_motion(object_to_world, "object_to_world"));
+            },
+            py::arg("id"), py::arg("object_to_world"),
+            "object_to_world (S, 4, 4), at even times from when the shutter opens to when it closes: 2 to 129 steps.")
+        .def("set_mesh_motion", &set_mesh_motion, py::arg("id"), py::arg("positions"),
+             py::arg("corner_normals") = py::none(), py::arg("vertex_normals") = py::none(),
+             "Of each step, likewise, what add_mesh was given, which is the middle of the motion.")
+        .def(
             "set_instance_visibility",
             [](Scene& scene, std::uint32_t id, const RayNames& hidden_from) {
                 scene.set_instance_visibility(id, visibility_of(hidden_from));
@@ -324,9 +396,13 @@ void register_scene(py::module_& module) {
         .def("set_camera", &set_camera, py::arg("camera_to_world"), py::arg("view_plane"), py::arg("width"),
              py::arg("height"), py::arg("window") = py::none(), py::arg("clip_start_m") = 0.0f,
              py::arg("clip_end_m") = infinity, py::arg("projection") = py::none(), py::arg("lens") = py::none(),
+             py::arg("motion") = py::none(), py::arg("shutter") = py::none(),
              "camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full "
              "frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, "
-             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.");
+             "y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. "
+             "motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, "
+             "at "
+             "even times; all the time unless that is given.");
 }
 
 }  // namespace pivot::bindings

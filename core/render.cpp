@@ -22,7 +22,8 @@ constexpr std::size_t max_bad_samples = 8;
 constexpr std::size_t mattes_of_pixel = 4;  // about
 constexpr std::uint32_t places_when_adaptive = 16;
 constexpr std::uint32_t place_seed = 0x70697831;  // of where samples lie in their pixels
-constexpr std::uint32_t lens_dimension = 0;       // of samplers: the integrators leave it
+// Dimensions of samplers that the integrators leave.
+constexpr std::uint32_t lens_dimension = 0, time_dimension = 1u << 30;
 
 /// The squares from which samples reach a window's pixels, in tiles. Tiles of one colour, four in all, are a tile
 /// apart, and as wide as two reaches: their samples reach different pixels.
@@ -62,8 +63,8 @@ std::optional<float> radiance_variance(std::span<const Sample> samples) {
 }
 
 bool is_finite(const Sample& s) {
-    const Vec3f sum = s.radiance + s.indirect + s.denoising_albedo + s.normal + s.albedo + s.emission + s.method +
-                      s.volume_direct + s.volume_indirect;
+    const Vec3f sum = s.radiance + s.indirect + s.denoising_albedo + s.denoising_normal + s.normal + s.albedo +
+                      s.emission + s.method + s.volume_direct + s.volume_indirect;
     return std::isfinite(sum.x + sum.y + sum.z + s.alpha + s.error + s.shadow_variance);
 }
 
@@ -386,6 +387,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     const Camera& camera = scene_->camera();
     const int reach = filter_.reach_px(), frame_y = camera.window.y0 + y;
     const bool is_analytic = settings_.integrator == Integrator::analytic, has_lens = camera.lens.radius_m > 0.0f;
+    const bool moves = scene_->moves();
     const std::uint32_t seed = is_analytic ? 0u : round.seed;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> indices;
@@ -405,8 +407,9 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
             const std::uint32_t index = round.first_index + pass.first_sample + static_cast<std::uint32_t>(k);
             indices.push_back(index);
             samplers.push_back(pixel_sampler(column, line, seed, pass.log2_samples, index));
-            rays.push_back(has_lens ? camera.ray(center + offsets[k], samplers.back().point(lens_dimension))
-                                    : camera.ray(center + offsets[k]));
+            const float time = moves ? camera.time(samplers.back().point(time_dimension).x) : middle_time;
+            rays.push_back(has_lens ? camera.ray(center + offsets[k], samplers.back().point(lens_dimension), time)
+                                    : camera.ray(center + offsets[k], time));
         }
     }
     std::vector<Sample> samples(rays.size());

@@ -56,7 +56,18 @@ ADDON_MAY_IMPORT = BLENDER_MODULES | {"numpy", "pivot_core"} | sys.stdlib_module
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 EMBREE = re.compile(r'\brtc[A-Z]\w*|\bRTC[A-Z]\w*|#[ \t]*include[ \t]*[<"]embree')
-EMBREE_FILES = {f"core/scene/{name}" for name in ("embree.h", "inner_rays.cpp", "mesh_bvhs.cpp", "ray_tracer.cpp")}
+EMBREE_FILES = {
+    f"core/scene/{name}"
+    for name in (
+        "embree.h",
+        "embree_curves.cpp",
+        "inner_rays.cpp",
+        "instance_bvhs.cpp",
+        "instance_bvhs.h",
+        "mesh_bvhs.cpp",
+        "ray_tracer.cpp",
+    )
+}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 

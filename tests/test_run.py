@@ -161,22 +161,22 @@ def test_chart_without_a_camera_says_so_in_a_line(tmp_path: Path) -> None:
     assert "Traceback" not in ran.stderr
 
 
-BLURRED = f"{QUICK}; s.render.use_motion_blur = True"
+CLAMPED = f"{QUICK}; s.cycles.sample_clamp_direct = 1"
 
 
 def test_a_frame_ends_with_what_it_took_and_warnings_come_once_a_run(tmp_path: Path, scene: Path) -> None:
-    ran = run("render", scene, "--", "--python-expr", BLURRED, "-a", cwd=tmp_path)
+    ran = run("render", scene, "--", "--python-expr", CLAMPED, "-a", cwd=tmp_path)
     assert ran.returncode == 0, ran.stdout + ran.stderr
-    assert ran.stderr.count("scene 'Scene': Motion Blur is not supported") == 1
+    assert ran.stderr.count("scene 'Scene': Clamp Direct is not supported") == 1
     took = r" \| Monte Carlo \| 1 sample \| [\d.]+ s \| [\d.]+ s CPU \| (\d+) MB peak \| 1 warning$"
     peaks_mb = [re.search(rf"^Pivot \| Frame {frame}{took}", ran.stderr, re.MULTILINE) for frame in (7, 8)]
     assert all(peak and 50 < int(peak[1]) < 5000 for peak in peaks_mb), ran.stderr
 
 
 def test_strict_takes_warnings_for_errors(tmp_path: Path, scene: Path) -> None:
-    ran = run("render", "--strict", scene, "--", "--python-expr", BLURRED, cwd=tmp_path)
+    ran = run("render", "--strict", scene, "--", "--python-expr", CLAMPED, cwd=tmp_path)
     assert ran.returncode != 0
-    assert "Warning: Pivot: scene 'Scene': Motion Blur is not supported" in ran.stderr
+    assert "Warning: Pivot: scene 'Scene': Clamp Direct is not supported" in ran.stderr
     assert "Error: Pivot: 1 warning, which a strict render takes for errors: scene 'Scene'" in ran.stderr
     assert names(tmp_path) == ["my scenes"]
     clean = run("render", "--strict", scene, "--", "--python-expr", QUICK, cwd=tmp_path)

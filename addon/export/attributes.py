@@ -23,7 +23,7 @@ Array = NDArray[np.float32]
 UV_OF_PASS = "uv:"  # what the pass shows: the map that is active for rendering
 
 # By the data type of Blender's attributes: the property of their elements, and how many numbers it has.
-_VALUES = {
+VALUES = {
     "FLOAT": ("value", 1),
     "INT": ("value", 1),
     "INT8": ("value", 1),
@@ -138,12 +138,12 @@ def _named(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, resu
     attribute = mesh.attributes.get(inner)
     if mesh.uv_layers.get(inner) is not None:
         _uv(mesh, arrays, inner, name, result)
-    elif attribute is not None and attribute.data_type in _VALUES:
+    elif attribute is not None and attribute.data_type in VALUES:
         _read(mesh, attribute, name, result)
 
 
 def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttributes) -> None:
-    key, width = _VALUES[attribute.data_type]
+    key, width = VALUES[attribute.data_type]
     dtype = np.float32
     if width == 1 and attribute.data_type != "FLOAT":
         dtype = np.bool_ if attribute.data_type == "BOOLEAN" else np.int32
@@ -164,6 +164,10 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
         np.add.at(sums, ends, np.repeat(values, 2, axis=0))
         counts = np.bincount(ends, minlength=len(sums))
         result.vertex_attributes[name] = sums / np.maximum(counts, 1)[:, None].astype(np.float32)
+
+
+def _nothing(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
+    """What only curves have."""
 
 
 def _island(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
@@ -192,4 +196,5 @@ _OF_MESH: dict[str, Callable[[bpy.types.Mesh, MeshArrays, str, str, MeshAttribut
     "island": _island,
     "pointiness": _pointiness,
     "attribute": _named,
+    "strand": _nothing,
 }

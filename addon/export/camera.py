@@ -44,19 +44,40 @@ def _border_pixel(border: float, size: int) -> int:
     return int(np.float32(border) * np.float32(size))  # Blender's own rounding, in single precision
 
 
-def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame) -> None:
-    """Set the core's camera to the one the engine renders with. Raises RenderError naming the camera and the fix."""
+@dataclass(frozen=True)
+class CameraMotion:
+    """A camera while its shutter is open."""
+
+    places: NDArray[np.float64] | None  # (S, 4, 4), at even times; None: it stays where it is
+    openness: list[float] | None  # at even times; None: open all the time
+
+
+def active_camera(context: Context, engine: bpy.types.RenderEngine) -> bpy.types.Object:
+    """The one that the engine renders with. Raises RenderError without."""
     scene = context.depsgraph.scene_eval
-    original = engine.camera_override or scene.camera
-    if original is None:
+    camera = engine.camera_override or scene.camera
+    if camera is None:
         raise RenderError(f"scene '{scene.name}' has no camera. Fix: add one and make it the scene's active camera")
+    return camera.original
+
+
+def camera_place(context: Context, engine: bpy.types.RenderEngine, camera: bpy.types.Object) -> NDArray[np.float64]:
+    """Where a camera stands, (4, 4) with unit axes, as the engine's view has it."""
+    return without_scale(np.array(engine.camera_model_matrix(camera.evaluated_get(context.depsgraph))))
+
+
+def export_camera(
+    context: Context, engine: bpy.types.RenderEngine, frame: Frame, motion: CameraMotion | None = None
+) -> None:
+    """Set the core's camera to the one the engine renders with. Raises RenderError naming the camera and the fix."""
+    scene, original = context.depsgraph.scene_eval, active_camera(context, engine)
     camera = original.evaluated_get(context.depsgraph)
     render, owner = scene.render, f"camera '{camera.name}'"
     if camera.type == "CAMERA":
         report_left_out(camera.data, owner, context.reporter)
         if render.use_multiview and camera.data.type == "PANO" and camera.data.stereo.use_spherical_stereo:
             context.reporter.warn(f"{owner}: Spherical Stereo is not supported, its eyes stand side by side")
-    camera_to_world = without_scale(np.array(engine.camera_model_matrix(camera)))
+    camera_to_world = camera_place(context, engine, original)
     if not np.isfinite(camera_to_world).all():
         raise RenderError(
             f"{owner}: its transform is not finite or has no extent. Fix: check its location, rotation, "
@@ -72,6 +93,8 @@ def export_camera(context: Context, engine: bpy.types.RenderEngine, frame: Frame
             width=frame.width,
             height=frame.height,
             window=frame.window,
+            motion=motion.places if motion else None,
+            shutter=motion.openness if motion else None,
             **optics.arguments(context.core),
         )
 

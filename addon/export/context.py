@@ -13,6 +13,15 @@ from .images import ImageTable
 from .mattes import Mattes
 
 
+@dataclass
+class Placed:
+    """Where in the core's scene the depsgraph's instances are; an index is one of these."""
+
+    instances: list[tuple[list[int], int]] = field(default_factory=list)  # of some, the first of successive ids
+    filled: set[int] = field(default_factory=set)  # those with a volume
+    meshes: dict[int, int] = field(default_factory=dict)  # by the core's id the first instance that has it
+
+
 @dataclass(frozen=True)
 class Context:
     core: ModuleType  # pivot_core
@@ -21,3 +30,4 @@ class Context:
     reporter: Reporter
     images: ImageTable
     mattes: Mattes = field(default_factory=Mattes)
+    placed: Placed = field(default_factory=Placed)

@@ -29,12 +29,15 @@ def random_of_islands(vertex_count: int, edges: NDArray[np.int32]) -> NDArray[np
             high, low = low, high
         parents[low] = high
         ranks[high] += ranks[high] == ranks[low]
-    return _hashed(np.array([root(vertex) for vertex in range(vertex_count)], np.uint32))
+    return random_of_numbers(np.array([root(vertex) for vertex in range(vertex_count)], np.uint32))
 
 
-def _hashed(whole: NDArray[np.uint32]) -> NDArray[np.float32]:
-    """[0, 1] of whole numbers. [Jenkins06, lookup3's final mixing, seeded as in Cycles 4.5 util/hash.h, hash_uint]"""
-    seed = np.uint32(0xDEADBEEF + (1 << 2) + 13)
+def random_of_numbers(whole: NDArray[np.uint32], words: int = 1) -> NDArray[np.float32]:
+    """[0, 1] of whole numbers, or of each and so many words less one that are 0.
+
+    [Jenkins06, lookup3's final mixing, seeded as in Cycles 4.5 util/hash.h, hash_uint and hash_uint2]
+    """
+    seed = np.uint32(0xDEADBEEF + (words << 2) + 13)
     numbers = [whole + seed, np.full_like(whole, seed), np.full_like(whole, seed)]
     for step, turn in enumerate(_ROTATIONS):
         mixed, by = (2, 0, 1)[step % 3], (1, 2, 0)[step % 3]

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..report import naming
+from .attributes import is_of_mesh
 from .baked import Interior, is_placed, reads_place
 from .context import Context
 from .dielectric import Dielectric
@@ -35,6 +36,11 @@ class Slots:
     attributes: frozenset[str]  # that they read of their meshes
     without_surface: frozenset[int]  # those whose faces only bound what fills the object
     is_placed: bool  # what fills the object is as its first instance has it
+    is_filled: bool = False
+
+    def of_mesh(self) -> frozenset[str]:
+        """The attributes that are of meshes and curves."""
+        return frozenset(filter(is_of_mesh, self.attributes))
 
     def ids_without_surface(self) -> tuple[int, ...]:
         """Of faces that all have none: what the other slots have does not count."""
@@ -82,6 +88,7 @@ class MaterialTable:
             attributes=frozenset().union(*(look.attributes for look in looks)),
             without_surface=frozenset(slot for slot, look in enumerate(looks) if not look.is_there),
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
+            is_filled=any(volume is not None for volume in volumes),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:

@@ -74,7 +74,7 @@ def mesh_arrays(mesh: bpy.types.Mesh) -> MeshArrays:
     slots = _polygon_slots(mesh)
     at_corners, at_vertices = _normals(mesh, corner_vertices, triangle_corners)
     return MeshArrays(
-        positions=_positions(mesh),
+        positions=positions(mesh),
         corner_vertices=corner_vertices,
         triangle_corners=triangle_corners,
         corner_normals=at_corners,
@@ -111,7 +111,8 @@ def _triangle_polygons(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     return _read(mesh.loop_triangles, "polygon_index", np.int32)
 
 
-def _positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+def positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    """(V, 3), a copy."""
     attribute = mesh.attributes.get("position")  # from Blender 3.5
     if attribute is not None:
         return _read(attribute.data, "vector", np.float32, 3)

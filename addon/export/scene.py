@@ -16,6 +16,7 @@ from .attributes import UV_OF_PASS, is_of_mesh, mesh_attributes, object_attribut
 from .baked import Interior
 from .census import report_left_out
 from .context import Context
+from .curves import CurveArrays, curve_arrays, curve_settings
 from .grids import NO_GRIDS, Grids
 from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
@@ -25,12 +26,13 @@ from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
 from .mesh_cache import MeshCache
 from .smoke import has_smoke, smoke_domain, smoke_grids
+from .strands import strand_arrays, strand_modifiers
 from .visibility import Visible, visible
 from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
 
-# Curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH beside them.
-_UNSUPPORTED = {"CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}
+# Old curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH.
+_UNSUPPORTED = {"POINTCLOUD", "GPENCIL", "GREASEPENCIL"}
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,11 @@ class _Group:
     pass_index: float
     reads: frozenset[str]  # attributes that its materials ask for
     is_placed: bool  # what fills it is as its first instance has it
+    is_filled: bool
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
+
+
+_MakeGroups = Callable[[bpy.types.Object, Instances, int], list[_Group]]
 
 
 def _group_of(
@@ -56,6 +62,7 @@ def _group_of(
     is_placed: bool,
     mattes: Mattes,
     reads: frozenset[str] = frozenset(),
+    is_filled: bool = True,
 ) -> _Group:
     matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return _Group(
@@ -68,6 +75,7 @@ def _group_of(
         pass_index=blender_object.pass_index,
         reads=reads,
         is_placed=is_placed,
+        is_filled=is_filled,
     )
 
 
@@ -140,18 +148,19 @@ class _Exporter:
         for index, instance in enumerate(instances):
             blender_object = instance.object
             instancer = instance.parent if instance.is_instance else None
-            if not instance.show_self or not (is_shown is None or is_shown(blender_object)):
+            if not (is_shown is None or is_shown(blender_object)):
+                continue
+            if instance.show_particles and layer.use_strand:
+                self._place(self._strand_groups, blender_object, instance, told, index)
+            if not instance.show_self:
                 continue
             if blender_object.type == "LIGHT":
                 place = told.object_to_world[index].astype(np.float64)
                 export_light(self._context, blender_object, place, self._visible(blender_object, instancer))
             elif layer.use_solid and blender_object.type == "MESH":
-                seen = self._visible(blender_object, instancer)
-                for of_any in self._mesh_groups(blender_object, instance, told, index):
-                    group = replace(of_any, visible=seen)
-                    self._instances[group].append(index)
-                    if "particle:" in group.reads:
-                        self._particles[group].append(particle_index(instance))
+                self._place(self._make_mesh_groups, blender_object, instance, told, index)
+            elif layer.use_strand and blender_object.type == "CURVES":
+                self._place(self._curve_groups, blender_object, instance, told, index)
             elif layer.use_volumes and blender_object.type == "VOLUME":
                 seen = self._visible(blender_object, instancer)
                 for of_any in self._volume_groups(blender_object, told, index):
@@ -177,14 +186,28 @@ class _Exporter:
                 )
         return self._visibles[key]
 
-    def _mesh_groups(
-        self, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
+    def _place(
+        self, make: _MakeGroups, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
+    ) -> None:
+        """Add an instance of what an object looks like. make: what that is, called once."""
+        groups = self._groups_of(make, blender_object, instance, told, index)
+        if not groups:
+            return
+        seen = self._visible(blender_object, instance.parent if instance.is_instance else None)
+        for of_any in groups:
+            group = replace(of_any, visible=seen)
+            self._instances[group].append(index)
+            if "particle:" in group.reads:
+                self._particles[group].append(particle_index(instance))
+
+    def _groups_of(
+        self, make: _MakeGroups, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
     ) -> list[_Group]:
-        """What a mesh object shares with its like: none where there is nothing to see, two where rays pass a part."""
-        key = (blender_object.original.as_pointer(), blender_object.data.as_pointer())
+        """What an object shares with its like: none where there is nothing to see, one for each part of it."""
+        key = (make.__name__, blender_object.original.as_pointer(), blender_object.data.as_pointer())
         if key not in self._groups:
             self._check_cancel()
-            self._groups[key] = self._make_mesh_groups(blender_object, told, index)
+            self._groups[key] = make(blender_object, told, index)
         groups = self._groups[key]
         reads = frozenset().union(*(group.reads for group in groups))
         if all(is_of_mesh(name) for name in reads):
@@ -205,6 +228,9 @@ class _Exporter:
             if domain is not None:
                 return self._smoke_groups(interior, domain, slot_materials)
             slots = self._materials.slots(slot_materials, interior)
+            parts = self._core_meshes(blender_object, mesh, slots)
+            for part, _ in parts:
+                self._context.placed.meshes.setdefault(part, index)
             return [
                 _group_of(
                     blender_object,
@@ -213,9 +239,46 @@ class _Exporter:
                     slots.is_placed,
                     self._context.mattes,
                     slots.attributes,
+                    slots.is_filled,
                 )
-                for part, is_passed in self._core_meshes(blender_object, mesh, slots)
+                for part, is_passed in parts
             ]
+
+    def _strand_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
+        """The strands of an object's particle systems, one for each."""
+        is_render = self._context.depsgraph.mode == "RENDER"
+        modifiers = strand_modifiers(blender_object, is_render)
+        if not modifiers:
+            return []
+        slots = self._slots_of_curves(blender_object, told, index)
+        groups = []
+        for modifier in modifiers:
+            slot = min(max(modifier.particle_system.settings.material - 1, 0), len(slots.ids) - 1)
+            arrays = strand_arrays(blender_object, modifier, slots.of_mesh(), is_render)
+            if arrays is not None and slot not in slots.without_surface:
+                groups.append(self._group_of_curves(blender_object, arrays, slots.ids[slot], slots))
+        return groups
+
+    def _curve_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
+        report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
+        slots = self._slots_of_curves(blender_object, told, index)
+        if 0 in slots.without_surface:
+            return []
+        arrays = curve_arrays(blender_object.data, slots.of_mesh())
+        return [self._group_of_curves(blender_object, arrays, slots.ids[0], slots)]
+
+    def _slots_of_curves(self, blender_object: bpy.types.Object, told: Instances, index: int) -> Slots:
+        slot_materials = [slot.material for slot in blender_object.material_slots]
+        return self._materials.slots(slot_materials, _interior(blender_object, None, told, index, NO_GRIDS))
+
+    def _group_of_curves(
+        self, blender_object: bpy.types.Object, arrays: CurveArrays, material: int, slots: Slots
+    ) -> _Group:
+        name = blender_object.name
+        with naming(f"object '{name}'", "correct these points, or what makes them"):
+            settings = curve_settings(self._context.depsgraph.scene_eval)
+            curves = self._context.scene.add_curves(name, **vars(arrays), **settings)
+        return _group_of(blender_object, curves, (material,), False, self._context.mattes, slots.attributes)
 
     def _smoke_groups(self, interior: Interior, domain: Any, slot_materials: list[Any]) -> list[_Group]:
         """A domain as Cycles has it: its volume within its mesh, and no surface."""
@@ -268,7 +331,7 @@ class _Exporter:
 
         The core lets rays pass all of an instance's faces or none. mesh: that, with what is edited in Edit Mode.
         """
-        names, last_slot = frozenset(filter(is_of_mesh, slots.attributes)), len(slots.ids) - 1
+        names, last_slot = slots.of_mesh(), len(slots.ids) - 1
         if self._context.depsgraph.view_layer.use_pass_uv:
             names |= {UV_OF_PASS}
         key = (blender_object.data.as_pointer(), names, slots.without_surface)
@@ -296,7 +359,7 @@ class _Exporter:
                 f"object '{group.name}': its transform is not finite. Fix: check its location, rotation, scale, "
                 "drivers and constraints"
             )
-        self._context.scene.add_instances(
+        first = self._context.scene.add_instances(
             group.name,
             group.mesh,
             np.ascontiguousarray(object_to_world),
@@ -312,6 +375,9 @@ class _Exporter:
             uv=told.uv[indices],
             attributes=dict(group.attributes),
         )
+        self._context.placed.instances.append((indices, first))
+        if group.is_filled:
+            self._context.placed.filled.update(indices)
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

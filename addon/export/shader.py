@@ -16,6 +16,7 @@ from . import cloth, subsurface
 from .census import INPUTS
 from .dielectric import Dielectric
 from .film import Film
+from .hair import principled_hair
 from .highlight import Highlight, f82, sides, sides_of_glossy
 from .layers import beneath_dielectric, brushed, coated, rotation
 from .lobe import Lobe
@@ -397,6 +398,7 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_SHEEN": cloth.sheen,
     "BSDF_VELVET": cloth.velvet,
+    "BSDF_HAIR_PRINCIPLED": principled_hair,
     "SUBSURFACE_SCATTERING": subsurface.node,
     "BSDF_GLOSSY": _glossy,
     "BSDF_ANISOTROPIC": _glossy,

@@ -79,7 +79,8 @@ def sun_disk(core: Any, air: Air, diameter_rad: float) -> tuple[Floats, Floats]:
     solid_angle = 2 * np.pi * (1 - np.cos(diameter_rad / 2))
     low, high = (air.sun_elevation_rad + side * diameter_rad / 2 for side in (-1, 1))
     edges = _direction(np.maximum([low, high], 0.0), np.zeros(2))
-    depth = _depth_to_sun(_viewer(air, 2), edges)
+    viewer_m = np.full(2, _viewer_m(air))
+    depth = _depth_to_sun(viewer_m, viewer_m * edges[:, 2])
     rgb = _rgb(core, _SUN_IRRADIANCE * np.exp(-_extinction(Air(0, 0, air.air, air.dust, 0), depth)) / solid_angle)
     return rgb[0], rgb[1]
 
@@ -142,36 +143,46 @@ def _direction(elevation: Floats, azimuth: Floats) -> Floats:
     return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), np.sin(elevation)], -1)
 
 
-def _viewer(air: Air, count: int) -> Floats:
-    return np.tile([0.0, 0.0, _EARTH_M + np.clip(air.altitude_m, 1, 59999)], (count, 1))
+def _viewer_m(air: Air) -> float:
+    """Above the middle of the Earth."""
+    return float(_EARTH_M + np.clip(air.altitude_m, 1, 59999))
 
 
-def _densities(places: Floats) -> Floats:
-    """(..., 3) of air, dust and ozone, over their densities at the ground or where they are densest."""
-    height = np.linalg.norm(places, axis=-1) - _EARTH_M
+# A place is a radius, how far it is from the middle of the Earth, and a way from there also has a rise: radius times
+# cosine of its angle to the vertical. After s metres of it the radius is sqrt(radius^2 + 2 s rise + s^2).
+
+
+def _radius_after(radius_m: Floats, rise_m: Floats, way_m: Floats) -> Floats:
+    return np.sqrt(radius_m**2 + way_m * (2 * rise_m + way_m))
+
+
+def _densities(radius_m: Floats) -> Floats:
+    """(3, ...) of air, dust and ozone, over their densities at the ground or where they are densest."""
+    height = radius_m - _EARTH_M
     ozone = np.maximum(1 - np.abs(height - _OZONE_M) / _OZONE_HALF_M, 0)
-    return np.stack([np.exp(-height / _AIR_M), np.exp(-height / _DUST_M), ozone], -1)
+    return np.stack([np.exp(-height / _AIR_M), np.exp(-height / _DUST_M), ozone])
 
 
-def _way_out_m(places: Floats, directions: Floats) -> Floats:
+def _way_out_m(radius_m: Floats, rise_m: Floats) -> Floats:
     """To the edge of the atmosphere."""
-    b = (places * directions).sum(-1)
-    return -b + np.sqrt(b**2 - (places**2).sum(-1) + _ATMOSPHERE_M**2)
+    return -rise_m + np.sqrt(rise_m**2 - radius_m**2 + _ATMOSPHERE_M**2)
 
 
-def _depth_to_sun(places: Floats, directions: Floats) -> Floats:
-    """(n, 3) integrals of the densities along ways out, which fall off about exponentially: by Gauss-Laguerre."""
+def _depth_to_sun(radius_m: Floats, rise_m: Floats) -> Floats:
+    """(3, n) integrals of the densities along ways out, which fall off about exponentially: by Gauss-Laguerre."""
     nodes, weights = np.polynomial.laguerre.laggauss(_SUN_STEPS)
     weights, nodes = weights * np.exp(nodes) / 25, nodes / 25  # the last node is within the atmosphere [C]
-    way_m = _way_out_m(places, directions)
-    along = places[:, None] + (nodes[:, None] * way_m[:, None, None]) * directions[:, None]
-    return (_densities(along) * weights[:, None]).sum(1) * way_m[:, None]
+    way_m = _way_out_m(radius_m, rise_m)
+    depth = np.zeros((3, *way_m.shape))
+    for node, weight in zip(nodes, weights, strict=True):
+        depth += weight * _densities(_radius_after(radius_m, rise_m, node * way_m))
+    return depth * way_m
 
 
-def _extinction(air: Air, depth: Floats) -> Floats:
-    """(n, wavelengths) of integrals of densities."""
+def _extinction(air: Air, depth: Floats) -> NDArray[np.float32]:
+    """(n, wavelengths) of integrals of densities, (3, n)."""
     per_m = np.stack([_AIR_PER_M, np.full_like(_AIR_PER_M, _DUST_EXTINCTION_PER_M), _OZONE_PER_M])
-    return depth * (air.air, air.dust, air.ozone) @ per_m
+    return (depth.T * (air.air, air.dust, air.ozone)).astype(np.float32) @ per_m.astype(np.float32)
 
 
 def _scattered(air: Air, directions: Floats) -> Floats:
@@ -181,20 +192,22 @@ def _scattered(air: Air, directions: Floats) -> Floats:
     by_air = 3 / (16 * np.pi) * (1 + mu**2)
     # The phase function of Cornette and Shanks. [Nishita93 (5)]
     by_dust = 3 * (1 - g**2) * (1 + mu**2) / (8 * np.pi * (2 + g**2) * (1 + g**2 - 2 * g * mu) ** 1.5)
-    here = _viewer(air, len(directions))
-    step_m = _way_out_m(here, directions) / _STEPS
-    depth, radiance = np.zeros((len(directions), 3)), np.zeros((len(directions), len(_WAVELENGTHS_M)))
-    suns = np.broadcast_to(sun, directions.shape)
+    viewer_m = np.full(len(directions), _viewer_m(air))
+    rise_m = viewer_m * directions[:, 2]
+    step_m = _way_out_m(viewer_m, rise_m) / _STEPS
+    depth, radiance = np.zeros((3, len(directions))), np.zeros((len(directions), len(_WAVELENGTHS_M)), np.float32)
     for step in range(_STEPS):
-        places = here + ((step + 0.5) * step_m)[:, None] * directions
-        density = _densities(places)
-        depth += density * step_m[:, None]
-        b = places @ sun
-        in_shadow = (sun[2] < 0) & (b**2 - (places**2).sum(-1) + _EARTH_M**2 >= 0)
-        left = np.exp(-_extinction(air, depth + _depth_to_sun(places, suns)))
-        by_both = (by_air * density[:, 0] * air.air)[:, None] * _AIR_PER_M
-        by_both += (by_dust * density[:, 1] * air.dust)[:, None] * _DUST_SCATTERING_PER_M
-        radiance += np.where(in_shadow, 0, step_m)[:, None] * left * by_both
+        way_m = (step + 0.5) * step_m
+        radius_m = _radius_after(viewer_m, rise_m, way_m)
+        density = _densities(radius_m)
+        depth += density * step_m
+        sun_rise_m = viewer_m * sun[2] + way_m * mu
+        in_shadow = (sun[2] < 0) & (sun_rise_m**2 - radius_m**2 + _EARTH_M**2 >= 0)
+        left = np.exp(-_extinction(air, depth + _depth_to_sun(radius_m, sun_rise_m)))
+        lit_m = np.where(in_shadow, 0, step_m)
+        scattered = np.stack([by_air * density[0] * air.air * lit_m, by_dust * density[1] * air.dust * lit_m], -1)
+        per_m = np.stack([_AIR_PER_M, np.full_like(_AIR_PER_M, _DUST_SCATTERING_PER_M)])
+        radiance += left * (scattered.astype(np.float32) @ per_m.astype(np.float32))
     return radiance * _SUN_IRRADIANCE
 
 

@@ -575,6 +575,20 @@ class Scene:
         """
         One of several that take meshes from each other.
         """
+    def add_curves(
+        self,
+        name: str,
+        positions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        radii_m: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        offsets: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
+        shape: str = "RIBBON",
+        subdivisions: typing.SupportsInt | typing.SupportsIndex = 3,
+        point_attributes: collections.abc.Mapping[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = {},
+        segment_slots: typing.Annotated[numpy.typing.ArrayLike, numpy.int32] | None = None,
+    ) -> int:
+        """
+        Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what is a mesh to all other functions.
+        """
     def add_instances(
         self,
         name: str,
@@ -685,9 +699,10 @@ class Scene:
         origins: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         packets: bool = True,
+        times: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
     ) -> tuple:
         """
-        Closest hits of rays (n, 3), unit directions: distance_m (n,), infinite where there is none; instance and triangle (n,), -1 where there is none; barycentric (n, 2).
+        Closest hits of rays (n, 3), unit directions, at times (n,), else in the middle: distance_m (n,), infinite where there is none; instance and triangle (n,), -1 where there is none; barycentric (n, 2).
         """
     def light_densities(
         self,
@@ -768,9 +783,11 @@ class Scene:
         | MirrorBall
         | None = None,
         lens: Lens | None = None,
+        motion: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        shutter: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None,
     ) -> None:
         """
-        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given.
+        camera_to_world (4, 4): the camera looks down its -z. view_plane: (left, right, bottom, top) of the full frame, in places of the projection, which is a Perspective unless one is given. window: (x0, y0, x1, y1), the pixels to render, from the bottom left. lens: a pinhole unless one is given. motion: (S, 4, 4), camera_to_world at even times while the shutter is open. shutter: how far it is open, at even times; all the time unless that is given.
         """
     def set_instance_materials(
         self,
@@ -779,6 +796,14 @@ class Scene:
     ) -> None:
         """
         materials: as in add_instances.
+        """
+    def set_instance_motion(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        object_to_world: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> None:
+        """
+        object_to_world (S, 4, 4), at even times from when the shutter opens to when it closes: 2 to 129 steps.
         """
     def set_instance_transform(
         self,
@@ -802,6 +827,16 @@ class Scene:
         medium: Medium | None = None,
         has_surface: bool = True,
     ) -> None: ...
+    def set_mesh_motion(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        positions: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        corner_normals: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] | None = None,
+        vertex_normals: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] | None = None,
+    ) -> None:
+        """
+        Of each step, likewise, what add_mesh was given, which is the middle of the motion.
+        """
     def set_world(
         self,
         radiance: typing.Annotated[
@@ -1016,6 +1051,15 @@ LOBES: dict = {
     },
     "sheen": {"color": (3, 0.0, 3.4028234663852886e38), "roughness": (1, 0.0, 1.0)},
     "velvet": {"color": (3, 0.0, 3.4028234663852886e38), "sigma": (1, 0.0, 1.0)},
+    "hair": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "absorption": (3, 0.0, 3.4028234663852886e38),
+        "variance": (1, 9.999999974752427e-07, 3.4028234663852886e38),
+        "primary_variance": (1, 9.999999974752427e-07, 3.4028234663852886e38),
+        "scale": (1, 0.0010000000474974513, 3.4028234663852886e38),
+        "tilt_rad": (1, -1.600000023841858, 1.600000023841858),
+        "ior": (1, 1.0, 3.4028234663852886e38),
+    },
     "subsurface": {
         "color": (3, 0.0, 3.4028234663852886e38),
         "albedo": (3, 0.0, 1.0),

@@ -11,6 +11,7 @@
 #include "core/bsdf/lobes/dielectric.h"
 #include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
+#include "core/bsdf/lobes/hair.h"
 #include "core/bsdf/lobes/oren_nayar.h"
 #include "core/bsdf/lobes/sheen.h"
 #include "core/bsdf/lobes/subsurface.h"
@@ -25,7 +26,7 @@ namespace pivot {
 template <class T>
 using LobeKinds =
     std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>, Conductor<T>,
-               OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Subsurface<T>, ThinFilm<T>>;
+               OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>, ThinFilm<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
@@ -39,11 +40,11 @@ concept DiffuseLobe = requires {
     requires L::is_diffuse;
 };
 
-/// What a kind of lobe must have, T its number type. It may have add_highlights(Highlights&), of floats, which adds GGX
-/// lobes that light samples may follow and what these leave out; and highlight_probability(), below which u_lobe draws
-/// what is no diffuse light; and eval_diffuse(wo, wi), the part of eval() that is; its Parameters turn_over(mask),
-/// which makes them those of the surface's back, and turn_normals(local_of, mask), which takes normals of theirs out of
-/// world space; and is_diffuse, see DiffuseLobe.
+/// What a kind of lobe must have, T its number type. It may have add_highlights(HighlightsOf<T>&, wo, mask), which adds
+/// GGX lobes that light samples may follow and what these leave out (of a diffuse lobe, whether it is even enough); and
+/// highlight_probability(), below which u_lobe draws what is no diffuse light; and eval_diffuse(wo, wi), the part of
+/// eval() that is; its Parameters turn_over(mask), which makes them those of the surface's back, and
+/// turn_normals(local_of, mask), which takes normals of theirs out of world space; and is_diffuse, see DiffuseLobe.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {

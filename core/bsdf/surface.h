@@ -136,18 +136,30 @@ Mask<T> is_like_base(const SurfaceOf<T>& surface) {
     return result;
 }
 
-/// What light samples may follow of the lobes beside the base.
-inline Highlights highlights_of(const Surface& surface) {
-    Highlights highlights;
-    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<float>&, bool) {
-        if constexpr (requires { lobe.add_highlights(highlights); }) {
-            lobe.add_highlights(highlights);
-        } else {
-            highlights.beside += mean_component(lobe.albedo(surface.wo_local));
-            highlights.are_close = false;
+/// What light samples may follow of the lobes beside the base; diffuse ones, which are found with the base's, are not
+/// counted as beside.
+template <class T>
+HighlightsOf<T> highlights_of(const SurfaceOf<T>& surface) {
+    HighlightsOf<T> highlights;
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (requires { lobe.add_highlights(highlights, surface.wo_local, is_kind); }) {
+            lobe.add_highlights(highlights, surface.wo_local, is_kind);
+        } else if constexpr (!DiffuseLobe<L>) {
+            highlights.add_beside(mean_component(lobe.albedo(surface.wo_local)), is_kind);
+            highlights.are_close = highlights.are_close && !is_kind;
         }
     });
     return highlights;
+}
+
+/// Whether batches know the highlights of all its lobes: of those that read tables each lane has its own.
+template <class T>
+Mask<T> has_common_highlights(const SurfaceOf<T>& surface) {
+    Mask<T> result = T(0) >= T(0);
+    for_each_lobe(surface, [&]<class L>(const L&, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (HasTable<L>) result = result && !is_kind;
+    });
+    return result;
 }
 
 /// What the pass of diffuse colours shows.
@@ -166,6 +178,25 @@ Vec3<T> denoising_albedo(const SurfaceOf<T>& surface) {
     Vec3<T> albedo = albedo_base(surface);
     for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
         albedo += select(is_kind, lobe.albedo(surface.wo_local), Vec3<T>(T(0)));
+    });
+    return min(albedo, Vec3<T>(T(1)));
+}
+
+/// The part of denoising_albedo() by which others are seen: what it reflects as a mirror, or lets through as clear
+/// glass.
+template <class T>
+Vec3<T> clear_albedo(const SurfaceOf<T>& surface) {
+    const Vec3<T> black(T(0));
+    const auto is_clear = [](const T& alpha) { return alpha <= T(0.075f); };
+    const auto of_base = [&](const BaseOf<T>& base) {
+        return select(base.has_glossy() && is_clear(base.alpha), glossy_albedo(base), black);
+    };
+    Vec3<T> albedo = of_base(surface);
+    for_each_lobe(surface, [&](const auto& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (requires { lobe.base; })
+            albedo += select(is_kind, of_base(lobe.base), black);
+        else if constexpr (requires { lobe.alpha; })
+            albedo += select(is_kind && is_clear(lobe.alpha), lobe.albedo(surface.wo_local), black);
     });
     return min(albedo, Vec3<T>(T(1)));
 }

@@ -183,7 +183,7 @@ void SurfacePixel::add(const SurfacePixel& other, float scale) {
 
 void OwnSum::add(std::span<const Sample> samples, float scale) {
     for (const Sample& sample : samples)
-        add({sample.radiance, sample.indirect, sample.denoising_albedo, sample.normal, 1.0f}, scale);
+        add({sample.radiance, sample.indirect, sample.denoising_albedo, sample.denoising_normal, 1.0f}, scale);
 }
 
 void OwnSum::add(const OwnSum& other, float scale) {

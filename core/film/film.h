@@ -25,7 +25,9 @@ struct Sample {
     Rgb volume_direct{0.0f};       ///< what media scatter to the camera of light that comes to them straight
     Rgb volume_indirect{0.0f};     ///< and of other light
     Rgb indirect{0.0f};            ///< of radiance, what came by way of other surfaces and media
-    Rgb denoising_albedo{0.0f};    ///< Monte Carlo, for a denoiser: of all lobes at the first hit, at most 1
+    Rgb denoising_albedo{0.0f};    ///< Monte Carlo, for a denoiser: of all lobes, at most 1, of the first surface that
+                                   ///< is not like a mirror or clear glass, as those before it show it
+    Vec3f denoising_normal{0.0f};  ///< likewise
     Rgb method{0.0f};              ///< analytic: colour of the methods that shaded the first hit
     float error = 0.0f;            ///< analytic: predicted for what is in closed form, as radiance
     float shadow_variance = 0.0f;  ///< analytic: of what this sample's rays say of shadows, radiance squared

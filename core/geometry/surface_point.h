@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/math/frame.h"
-#include "core/math/transform.h"
+#include "core/math/moving_transform.h"
 #include "core/math/vector.h"
 
 namespace pivot {
@@ -17,6 +17,7 @@ struct SurfacePointOf {
     T error_m;                 ///< bound of position's rounding error
     T front;                   ///< 1: normal_geometric is the triangle's own; -1: that turned
     Vec3<T> wo_local;
+    T time = T(middle_time);  ///< when it is there: that of rays that leave it
 
     /// Whether both the shading and the true surface face a direction.
     Mask<T> faces(const Vec3<T>& wi) const { return dot(wi, normal_geometric) > T(0) && dot(wi, frame.z) > T(0); }
@@ -46,6 +47,7 @@ struct HitTriangleOf {
     Vec3<T> normal_a, normal_b, normal_c;  ///< 0: flat shading
     TransformOf<T> world_from_object;
     Mat3<T> normal_matrix;
+    T time = T(middle_time);  ///< when it is so
 };
 
 /// The smooth normal of the side that the triangle's own normal is of, world, unit. normal: that, where there is none.
@@ -133,6 +135,7 @@ SurfacePointOf<T> surface_point(const HitTriangleOf<T>& triangle, const Vec2<T>&
     point.front = select(dot(normal, wo) >= T(0), T(1), T(-1));
     point.normal_geometric = normal * point.front;
     turn_shading_normal(point, smooth_normal(triangle, barycentric, normal), wo);
+    point.time = triangle.time;
     return point;
 }
 

@@ -79,7 +79,8 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
             const Rgb scattered = lamp.typical().scattered(ray.ray().direction, point->wi) * point->radiance;
             // Beside the table, which has the rest in it.
             const float weight = sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f;
-            rays.add({position, point->wi, 0.0f, point->distance_m * shadow_reach}, true, {&share, weight, 0.0f});
+            rays.add({position, point->wi, 0.0f, point->distance_m * shadow_reach, ray.ray().time}, true,
+                     {&share, weight, 0.0f});
         }
     };
     ask_points(scene, points.max_passages(), points.first_part(), {&share, 1}, add_points);

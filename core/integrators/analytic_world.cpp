@@ -44,7 +44,8 @@ WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& sc
     const auto add_points = [&](const PartOfPoints& part, std::span<const bool>, ShadowRays& rays) {
         const auto add = [&](const Vec3f& wi_local, float of_diffuse, float of_glossy) {
             const Vec3f wi = point.frame.to_world(wi_local);
-            rays.add({point.ray_origin(wi), wi}, point.faces(wi), {&shares, of_diffuse, of_glossy});
+            rays.add({.origin = point.ray_origin(wi), .direction = wi, .time = point.time}, point.faces(wi),
+                     {&shares, of_diffuse, of_glossy});
         };
         if (diffuse > 0.0f) {
             const auto [begin, end] = diffuse_points.range(part);

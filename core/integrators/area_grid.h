@@ -94,17 +94,17 @@ AreaFit<T> fit_of(const Vec3<T>& m, const Vec3<T>& m_u, const Vec3<T>& m_v) {
         dot(m, m), dot(m, m_u), dot(m, m_v), max(dot(m_u, m_u), T(1e-6f)), dot(m_u, m_v), max(dot(m_v, m_v), T(1e-6f))};
 }
 
-/// Of the GGX lobe: slopes in alphas.
+/// Of the GGX lobe: slopes in alphas. per_alpha: over that of x and y, and 0; all in the highlight's own frame.
 template <class T>
-AreaFit<T> fit_glossy(const AreaView<T>& light, const Vec3<T>& wo, T alpha, const Vec2<T>& at) {
+AreaFit<T> fit_glossy(const AreaView<T>& light, const Vec3<T>& wo, const Vec3<T>& per_alpha, const Vec2<T>& at) {
     const Vec3<T> d = light.center + at.x * light.half_u + at.y * light.half_v;
     const T inverse_d = inverse_sqrt(max(dot(d, d), tiny<T>));
     const Vec3<T> wi = d * inverse_d;
-    const T inverse_h = inverse(max(wo.z + wi.z, T(1e-3f))), per_alpha = inverse(alpha);
+    const T inverse_h = inverse(max(wo.z + wi.z, T(1e-3f)));
     const Vec3<T> m((wo.x + wi.x) * inverse_h, (wo.y + wi.y) * inverse_h, T(0));
     const auto change = [&](const Vec3<T>& along) {
         const Vec3<T> turn = (along - dot(along, wi) * wi) * inverse_d;
-        return Vec3<T>(turn.x - m.x * turn.z, turn.y - m.y * turn.z, T(0)) * (inverse_h * per_alpha);
+        return Vec3<T>(turn.x - m.x * turn.z, turn.y - m.y * turn.z, T(0)) * (per_alpha * inverse_h);
     };
     return fit_of(m * per_alpha, change(light.half_u), change(light.half_v));
 }

@@ -109,11 +109,11 @@ Reflection AreaLightShading::left_by_points(const Scene& scene, const ShadowPoin
                 const float error_m = light_.is_two_sided() ? surface_error_m(light_) + point.error_m : 0.0f;
                 const bool has_lobe = !is_rim && surface.has_glossy();
                 const float lobe = has_lobe ? ggx_eval(surface.wo_local, wi_local, surface.alpha, surface.alpha) : 0.0f;
-                rays.add(
-                    {point.ray_origin(wi), wi, 0.0f, distance_m * shadow_reach - error_m / std::max(cosine, 1e-6f)},
-                    point.faces(wi),
-                    {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe, is_rim ? 1.0f : 0.0f,
-                     is_spread ? spread_falloff(light_.inverse_tan_spread, cosine) : 1.0f});
+                rays.add({point.ray_origin(wi), wi, 0.0f, distance_m * shadow_reach - error_m / std::max(cosine, 1e-6f),
+                          point.time},
+                         point.faces(wi),
+                         {&shares[i], is_rim ? 0.0f : solid_angle * wi_local.z, solid_angle * lobe,
+                          is_rim ? 1.0f : 0.0f, is_spread ? spread_falloff(light_.inverse_tan_spread, cosine) : 1.0f});
             }
         };
         for (std::uint32_t k = 0; part.asks_rim() && k < rim_points; ++k) add(rim_of(light_, k), true);

@@ -45,7 +45,7 @@ Arrived find_places(const Scene& scene, std::span<const Arrival* const> arrivals
     for (std::size_t i = 0; i < batch_size; ++i) {
         const std::size_t place = std::min(i, arrivals.size() - 1);
         lanes[i] = arrivals[place];
-        if (i == place) triangles[i] = scene.hit_triangle(lanes[i]->hit);
+        if (i == place) triangles[i] = scene.hit_triangle(lanes[i]->hit, lanes[i]->direction);
         triangle_lanes[i] = &triangles[place];
     }
     const ArrivalOf<Batch> arrived = pack<ArrivalOf>(lanes);

@@ -227,7 +227,7 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints&
                 const SurfacePoint& point = batch_.lanes[i]->point;
                 const Vec3f direction(x[i], y[i], z[i]);
                 const float far_m = distance_to_light(light_, point.position, direction) * (1.0f - 1e-5f);
-                rays.add({point.ray_origin(direction), direction, 0.0f, far_m}, point.faces(direction),
+                rays.add({point.ray_origin(direction), direction, 0.0f, far_m, point.time}, point.faces(direction),
                          {&shares[i], of == &LaneShares::diffuse ? weights[i] : 0.0f,
                           of == &LaneShares::glossy ? weights[i] : 0.0f, of == &LaneShares::rim ? weights[i] : 0.0f});
             }

@@ -36,17 +36,22 @@ SharedSample sample_light_of(const Light& light, LightSampling strategy, const V
     return result;
 }
 
-/// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces that
-/// have lobes unlike a base's, are sampled one by one.
+/// A sample by each vertex, of its own light; the lanes that the closed forms leave out, and those of surfaces whose
+/// lobes read tables, are sampled one by one.
 LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, std::uint32_t bounce,
                                    const VertexBatch& vertices, const LightPicks& picks, std::uint32_t dimension,
                                    SharedLamps& shared_lamps) {
     const Vec2b u = vertices.sampler.point(dimension);
     const std::size_t lamp_count = scene.lamps().size();
     LightSampleOf<Batch> samples{Vec3b(Batch(0.0f)), Vec3b(Batch(0.0f)), Batch(0.0f)};
+    const Lanes times = store(vertices.point.time);
+    std::array<std::optional<Light>, batch_size> moved;
     std::array<const Light*, batch_size> lights;
-    for (std::size_t i = 0; i < batch_size; ++i)
-        lights[i] = &scene.light(picks.light[std::min(i, vertices.count() - 1)]);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const std::size_t place = picks.light[std::min(i, vertices.count() - 1)];
+        if (scene.is_moving_light(place)) moved[i] = scene.light_at(place, times[i]);
+        lights[i] = moved[i] ? &*moved[i] : &scene.light(place);
+    }
     const Batch expected = load(picks.expected_samples);
     BatchMask left = expected > Batch(0.0f) && vertices.is_vertex();
     // BSDF samples that meet emissive meshes count whatever is there.
@@ -54,7 +59,7 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
         if (picks.light[i] < lamp_count) shared_lamps.add(i, {picks.light[i], picks.expected_samples[i]});
     };
     const auto sample_kind = [&](const BatchMask& is_kind, const auto& sample_lanes) {
-        const BatchMask chosen = left && is_kind && is_like_base(vertices.surface);
+        const BatchMask chosen = left && is_kind;
         if (!any(chosen)) return;
         std::array<const Light*, batch_size> of_kind = lights;
         if (any(!chosen)) {
@@ -79,10 +84,16 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
         left = left && !sampled;
     };
     if (strategy == LightSampling::joint) {
-        const BatchMask is_area = gather([&](std::size_t i) {
-                                      return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
-                                  }) > Batch(0.0f);
-        sample_kind(!is_area, sample_cap_lights);
+        BatchMask is_area = gather([&](std::size_t i) {
+                                return std::holds_alternative<AreaLight>(*lights[i]) ? 1.0f : 0.0f;
+                            }) > Batch(0.0f);
+        const BatchMask is_plain = is_like_base(vertices.surface);
+        sample_kind(!is_area && is_plain, sample_cap_lights);
+        if (any(!is_plain)) {
+            const BatchMask is_known = has_common_highlights(vertices.surface);
+            sample_kind(!is_area && !is_plain && is_known, sample_cap_lights_by_lobes);
+            is_area = is_area && is_known;
+        }
         sample_kind(is_area,
                     [&](const VertexBatch& all, const std::array<const Light*, batch_size>& of_kind,
                         const Vec2b& u_place) { return sample_area_lights(all, of_kind, u_place, bounce == 0); });
@@ -105,13 +116,14 @@ LightSampleOf<Batch> sample_lights(const Scene& scene, LightSampling strategy, s
 
 /// The ray that a light sample of a triangle stands for, where that is met, a bounce on.
 Arrival arrival_at(const Scene& scene, const SceneTriangle& triangle, const AreaLight& light, const Vec3f& origin,
-                   const Vec3f& wi) {
+                   const Vec3f& wi, float time) {
     const float distance_m = dot(light.center - origin, light.normal) / dot(wi, light.normal);
     const Vec2f place = area_coordinates(light, origin + distance_m * wi);
     const RayHit hit{.distance_m = distance_m,
                      .instance = triangle.instance,
                      .triangle = triangle.triangle,
-                     .barycentric = barycentric_in_triangle(place)};
+                     .barycentric = barycentric_in_triangle(place),
+                     .time = time};
     return {
         .direction = wi, .hit = hit, .material = scene.material_of(hit), .footprint_m = 0.0f, .ray_kind = diffuse_ray};
 }
@@ -126,12 +138,13 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     const Lanes brought = store(max_component(abs(samples.radiance)));
     const std::array<LightSample, batch_size> each = unpack<LightSampleOf>(samples);
     const Vec3b& from = vertices.point.position;
-    const Lanes x = store(from.x), y = store(from.y), z = store(from.z);
+    const Lanes x = store(from.x), y = store(from.y), z = store(from.z), times = store(vertices.point.time);
     for (std::size_t i = 0; i < vertices.count(); ++i) {
         const auto triangle = brought[i] > 0.0f ? scene.varying_triangle(picks.light[i]) : std::nullopt;
         if (!triangle) continue;
-        const auto& light = std::get<AreaLight>(scene.light(picks.light[i]));
-        arrivals[count] = arrival_at(scene, *triangle, light, {x[i], y[i], z[i]}, each[i].wi);
+        const Light light = scene.light_at(picks.light[i], times[i]);
+        arrivals[count] =
+            arrival_at(scene, *triangle, std::get<AreaLight>(light), {x[i], y[i], z[i]}, each[i].wi, times[i]);
         in_turn[count] = &arrivals[count];
         lane_of[count++] = i;
     }
@@ -181,7 +194,8 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
               RayOf<Batch>{.origin = vertices.point.ray_origin(samples.wi),
                            .direction = samples.wi,
                            .near_m = Batch(0.0f),
-                           .far_m = select(adds, samples.reach_m, Batch(0.0f))},
+                           .far_m = select(adds, samples.reach_m, Batch(0.0f)),
+                           .time = vertices.point.time},
               is_open);
     };
     const BatchMask none(false);

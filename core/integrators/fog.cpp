@@ -83,6 +83,7 @@ Rgb Fog::sample_collision(std::uint32_t bounce, const Path& path, RandomStream& 
                                  .throughput = throughput,
                                  .footprint_m = path.arrival.footprint_m + path.spread * collided->distance_m,
                                  .spread = path.spread,
+                                 .time = ray_.ray().time,
                                  .sample = bounce == 0 ? path.sample + fog_sample_ : path.sample});
         }
     }
@@ -143,11 +144,12 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
         const float phase = eval(vertex.phase, vertex.direction, wi);
         const float weight = strategy == LightSampling::light ? 1.0f : balance(pdf, phase);
         if (!is_usable(pdf)) return;
-        shadows_.push_back({.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m},
-                            .light = vertex.throughput * radiance * (phase * weight / pdf),
-                            .bounce = bounce,
-                            .sample = vertex.sample,
-                            .dimension = dimension});
+        shadows_.push_back(
+            {.ray = {.origin = vertex.position, .direction = wi, .near_m = 0.0f, .far_m = reach_m, .time = vertex.time},
+             .light = vertex.throughput * radiance * (phase * weight / pdf),
+             .bounce = bounce,
+             .sample = vertex.sample,
+             .dimension = dimension});
     };
     if (const Environment& environment = scene.environment(); !environment.is_dark()) {
         const Vec2f u = sampler.point(dimensions.world());
@@ -163,7 +165,8 @@ void Fog::sample_shining(const FogVertex& vertex, std::uint32_t bounce) {
     const std::size_t place = scene.lamps().size() + index;
     // What shines by its program is left to the phase function.
     if (!(probability > 0.0f) || scene.varying_triangle(place) || !is_lit_by(place, bounce)) return;
-    const auto& light = std::get<AreaLight>(scene.light(place));
+    const Light chosen = scene.light_at(place, vertex.time);
+    const auto& light = std::get<AreaLight>(chosen);
     if (const auto point = sample_light(light, vertex.position, sampler.point(dimensions.triangle_place())))
         add(point->wi,
             point->distance_m * shadow_reach - surface_error_m(light) / std::abs(dot(point->wi, light.normal)),
@@ -190,8 +193,8 @@ Rgb Fog::shining_met(const FogVertex& vertex, std::uint32_t bounce, const Ray& r
     if (!shader.is_emissive() || shader.has_varying_emission()) return Rgb(0.0f);
     float weight = 1.0f;
     if (const auto index = scene.light_of(*hit)) {
-        const auto& light = std::get<AreaLight>(scene.light(*index));
-        if (const auto place = light_point(light, ray.direction, hit->distance_m))
+        const Light light = scene.light_at(*index, ray.time);
+        if (const auto place = light_point(std::get<AreaLight>(light), ray.direction, hit->distance_m))
             weight = weight_beside(place->pdf_omega * choice_probability(scene.triangle_tree(), vertex.position,
                                                                          *index - scene.lamps().size()));
     }
@@ -205,7 +208,8 @@ void Fog::scatter(std::uint32_t bounce, Paths& next) {
     for (const FogVertex& vertex : vertices) {
         sample_shining(vertex, bounce);
         const Vec2f u = work_.samplers[vertex.sample].point(FogDimensions(bounce).direction());
-        rays.push_back({.origin = vertex.position, .direction = sample(vertex.phase, vertex.direction, u)});
+        rays.push_back(
+            {.origin = vertex.position, .direction = sample(vertex.phase, vertex.direction, u), .time = vertex.time});
         pdf_omega.push_back(eval(vertex.phase, vertex.direction, rays.back().direction));
     }
     std::vector<std::optional<RayHit>> hits(rays.size());

@@ -16,6 +16,7 @@ struct FogVertex {
     Phase phase;
     Rgb throughput;
     float footprint_m, spread;
+    float time;
     std::uint32_t sample;
 };
 

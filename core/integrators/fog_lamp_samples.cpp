@@ -118,7 +118,8 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
     const RayOf<Batch> rays{.origin = position,
                             .direction = wi,
                             .near_m = zero,
-                            .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero)};
+                            .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero),
+                            .time = Batch(ray_.ray().time)};
     const bool casts = casts_shadows(*candidate.lamp);
     const Batch visible = casts ? work_.scene.visibility(rays) : Batch(1.0f);
     const Batch seen = select(is_usable, visible * eval(phase, direction, wi) / pdf, zero);
@@ -155,7 +156,8 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
         shadows_.push_back({.ray = {.origin = position,
                                     .direction = point.wi,
                                     .near_m = 0.0f,
-                                    .far_m = point.distance_m * shadow_reach},
+                                    .far_m = point.distance_m * shadow_reach,
+                                    .time = ray_.ray().time},
                             .light = worth * mix_.scattered(direction, point.wi) * point.radiance / pdf,
                             .bounce = bounce,
                             .sample = path.sample,

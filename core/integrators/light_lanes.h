@@ -29,6 +29,10 @@ struct LaneSamples {
 LaneSamples sample_cap_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
                               const Vec2b& u);
 
+/// The same for surfaces with lobes beside the base (see cap_mixture.h), which has_common_highlights().
+LaneSamples sample_cap_lights_by_lobes(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,
+                                       const Vec2b& u);
+
 /// Samples of area lights, even by area: or, triangles where they are near and lamps where wanted, jointly with the
 /// lobes.
 LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<const Light*, batch_size>& lights,

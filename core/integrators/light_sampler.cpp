@@ -8,21 +8,6 @@ namespace {
 const Vec3f normal_local(0.0f, 0.0f, 1.0f);
 constexpr float below_one = 1.0f - 0x1p-24f;
 
-/// The diffuse lobes as one, and the strongest of the highlights.
-JointSurface<float> joint_surface_of_all(const Surface& surface) {
-    JointSurface<float> joint = joint_surface(surface);
-    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<float>&, bool) {
-        if constexpr (!DiffuseLobe<L>) {
-            Surface alone(lobe.closed_form(surface.wo_local));
-            const JointSurface<float> other = joint_surface(alone);
-            const float diffuse = joint.diffuse + other.diffuse;
-            if (other.fresnel_f0 + other.fresnel_f90 > joint.fresnel_f0 + joint.fresnel_f90) joint = other;
-            joint.diffuse = diffuse;
-        }
-    });
-    return joint;
-}
-
 }  // namespace
 
 LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const Surface& surface,
@@ -37,27 +22,28 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
     const auto* area = std::get_if<AreaLight>(&light);
     if (area && strategy == LightSampling::joint && !transmits) {
         const AreaView<float> view = view_from(numbers_of(*area), point);
-        const JointSurface<float> whole = joint_surface_of_all(surface);
+        const AreaLobes<float> lobes(surface);
         if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
         else if (!is_even_enough(view))
-            area_.emplace(whole, view);
-        const Highlights highlights = highlights_of(surface);
-        const bool has_one_highlight =
-            highlights.is_empty() || (!surface.has_glossy() && highlights.is_one_of_a_base());
-        const bool is_as_of_base = is_like_base(surface) || (has_one_highlight && highlights.are_close);
-        shares_with_bsdf_ = !is_as_of_base || needs_bsdf_samples(view, whole);
+            area_.emplace(lobes, view);
+        shares_with_bsdf_ = needs_bsdf_samples(view, lobes);
     }
     if (!cap_) return;
     cap_local_ = {point.frame.to_local(cap_->axis), cap_->versine};
     if (strategy != LightSampling::joint && strategy != LightSampling::sptd) return;
+    if (strategy == LightSampling::joint && !is_like_base(surface)) {
+        mixture_.emplace(surface, cap_local_);
+        shares_with_bsdf_ = mixture_->needs_bsdf_samples();
+        return;
+    }
 
     // What each lobe reflects of the light, to choose between their techniques.
     float diffuse_share = 0.0f;
     float glossy_share = 0.0f;
     // What covers all that lights the diffuse lobe is also for the lobes beside the base.
     if (surface.has_diffuse() || has_lobes) {
-        diffuse_share = mean_component(surface.diffuse) * clamped_cosine_integral(cap_local_, normal_local) / pi<float>;
+        diffuse_share = joint_surface(surface).diffuse * clamped_cosine_integral(cap_local_, normal_local) / pi<float>;
         if (strategy == LightSampling::joint && !transmits) {
             diffuse_technique_ = Technique::projected;
             // From inside a sphere light the cap is all directions; those that count are the hemisphere.
@@ -87,39 +73,13 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
             }
         }
     }
-    shares_with_bsdf_ = has_lobes || strategy == LightSampling::sptd || glossy_technique_ == Technique::uniform;
-    if (strategy == LightSampling::joint && !surface.has_glossy() && !has_lobes) shares_with_bsdf_ = false;
+    const bool are_found = !has_lobes || (strategy == LightSampling::joint && highlights_of(surface).are_close);
+    shares_with_bsdf_ = !are_found || strategy == LightSampling::sptd ||
+                        (surface.has_glossy() && glossy_technique_ == Technique::uniform);
     const float total = diffuse_share + glossy_share;
     glossy_probability_ = total > 0.0f ? glossy_share / total : 0.5f;
-    if (surface.has_diffuse() && surface.has_glossy())
+    if ((surface.has_diffuse() || has_lobes) && surface.has_glossy())
         glossy_probability_ = std::clamp(glossy_probability_, 0.05f, 0.95f);
-    if (!has_lobes) return;
-    glossy_probability_ = surface.has_glossy() ? std::min(glossy_probability_, 0.5f) : 0.0f;
-    if (strategy == LightSampling::joint && follow_highlights(surface, total))
-        shares_with_bsdf_ = surface.has_glossy() && glossy_technique_ == Technique::uniform;
-}
-
-bool LightSampler::follow_highlights(const Surface& surface, float share_of_base) {
-    const Highlights highlights = highlights_of(surface);
-    float total = 0.0f;
-    bool are_all = highlights.are_close;
-    for (const auto& [frame, alpha_x, alpha_y, reflectance] : highlights) {
-        CapHighlight& over = highlights_[highlight_count_];
-        over.frame = frame;
-        const Cap<float> cap{frame.to_local(cap_local_.axis), cap_local_.versine};
-        over.cap = ggx_cap(frame.to_local(surface.wo_local), cap, alpha_x, alpha_y);
-        over.probability = reflectance * projected_integral(over.cap) / surface.wo_local.z;
-        if (is_cone(over.cap) && over.probability > 0.0f) {
-            total += over.probability;
-            ++highlight_count_;
-        } else {
-            are_all = false;
-        }
-    }
-    for (std::size_t i = 0; i < highlight_count_; ++i) highlights_[i].probability /= total;
-    const float beside = share_of_base + highlights.beside * 2.0f * std::min(cap_local_.versine, 1.0f);
-    if (total > 0.0f) highlights_probability_ = total / (total + beside);
-    return are_all;
 }
 
 Vec3f LightSampler::sample_in_cap(Technique technique, const Vec2f& u) const {
@@ -165,27 +125,12 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
                           pdf / seen.omega_per_xy};
     }
     if (!cap_) return sample_light(light_, point_.position, u);
-    // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
-    float left = u.x;
-    const auto chooses = [&](float probability) {
-        if (left < probability) {
-            left /= probability;
-            return true;
-        }
-        left = std::min((left - probability) / (1.0f - probability), below_one);
-        return false;
-    };
     const auto draw = [&] {
-        if (!chooses(highlights_probability_)) {
-            const Technique technique = chooses(glossy_probability_) ? glossy_technique_ : diffuse_technique_;
-            return sample_in_cap(technique, {left, u.y});
-        }
-        float rest = 1.0f;
-        std::size_t chosen = 0;
-        while (chosen + 1 < highlight_count_ && !chooses(highlights_[chosen].probability / rest))
-            rest = std::max(rest - highlights_[chosen++].probability, tiny<float>);
-        const CapHighlight& over = highlights_[chosen];
-        return over.frame.to_world(pivot::sample(over.cap, {left, u.y}).omega_i);
+        if (mixture_) return mixture_->sample(u);
+        // The first number chooses the technique, and what is left of it the place: points stay evenly spread.
+        if (u.x < glossy_probability_) return sample_in_cap(glossy_technique_, {u.x / glossy_probability_, u.y});
+        const float left = (u.x - glossy_probability_) / (1.0f - glossy_probability_);
+        return sample_in_cap(diffuse_technique_, {std::min(left, below_one), u.y});
     };
     const Vec3f wi_local = draw();
     LightPoint place = light_point_in_cap(light_, *cap_, point_.position, point_.frame.to_world(wi_local));
@@ -201,13 +146,8 @@ float LightSampler::pdf_omega(const LightPoint& place) const {
     }
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);
-    float of_highlights = 0.0f;
-    for (std::size_t i = 0; i < highlight_count_; ++i)
-        of_highlights +=
-            highlights_[i].probability * pdf_omega_inside(highlights_[i].cap, highlights_[i].frame.to_local(wi_local));
-    return lerp(
-        lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_),
-        of_highlights, highlights_probability_);
+    if (mixture_) return mixture_->pdf_omega(wi_local);
+    return lerp(pdf_in_cap(diffuse_technique_, wi_local), pdf_in_cap(glossy_technique_, wi_local), glossy_probability_);
 }
 
 }  // namespace pivot

@@ -13,9 +13,9 @@
 //   bsdf     -                    -                                    BSDF samples alone
 //
 // By strategy joint the highlights (highlight.h) of lobes beside the base (core/bsdf/lobe.h) are techniques of their
-// own, each by the exact core about its own axes, and what is beside these is found by the diffuse lobe's; where that
-// is not close to the lobes, and by other strategies, light samples share with BSDF samples. Of a surface that
-// transmits light the diffuse technique is uniform, in the cap or by area, also below the horizon.
+// own (cap_mixture.h), and what is beside these is found by the diffuse lobe's; where that is not close to the lobes,
+// and by other strategies, light samples share with BSDF samples. Of a surface that transmits light the diffuse
+// technique is uniform, in the cap or by area, also below the horizon.
 //
 // Where there are no lobes beside the base, a joint sample adds at most 10 times the light's radiance, 50 times an area
 // light's. Of a cap above the horizon it adds at most 2.5 times the light's mean where the surface has one lobe, 20
@@ -35,6 +35,7 @@
 #include "core/distributions/sptd.h"
 #include "core/geometry/surface_point.h"
 #include "core/integrators/area_sampling.h"
+#include "core/integrators/cap_mixture.h"
 #include "core/integrators/settings.h"
 #include "core/lights/light.h"
 
@@ -63,16 +64,6 @@ class LightSampler {
    private:
     enum class Technique { none, uniform, projected, pivot, exact };
 
-    /// One of a lobe's highlights over the cap.
-    struct CapHighlight {
-        Frame<float> frame;
-        GgxCap<float> cap;
-        float probability;
-    };
-
-    /// Adds those of the lobes over the cap, each as often as it reflects; whether samples of these and of the diffuse
-    /// technique will do.
-    bool follow_highlights(const Surface& surface, float share_of_base);
     Vec3f sample_in_cap(Technique technique, const Vec2f& u) const;
     float pdf_in_cap(Technique technique, const Vec3f& wi_local) const;
 
@@ -83,14 +74,12 @@ class LightSampler {
     Cap<float> cap_local_{};
     Technique diffuse_technique_ = Technique::none;
     Technique glossy_technique_ = Technique::none;
-    float glossy_probability_ = 0.0f;  ///< among the first two techniques
+    float glossy_probability_ = 0.0f;
     bool shares_with_bsdf_ = true;
     ProjectedCap<float> projected_cap_{};
     Pivot<float> pivot_{};
     GgxCap<float> ggx_cap_{};
-    std::array<CapHighlight, Highlights::most> highlights_;
-    std::size_t highlight_count_ = 0;
-    float highlights_probability_ = 0.0f;  ///< of all these
+    std::optional<CapMixture<float>> mixture_;  ///< joint, of surfaces with lobes unlike a base's: in place of both
 };
 
 }  // namespace pivot

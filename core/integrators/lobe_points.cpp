@@ -5,6 +5,7 @@
 #include "core/integrators/light_sampler.h"
 #include "core/integrators/lit_share.h"
 #include "core/integrators/media_ray.h"
+#include "core/integrators/vertex.h"
 #include "core/shading/method.h"
 
 namespace pivot {
@@ -25,9 +26,11 @@ struct WeightedPoint {
 };
 
 /// Point k of so many, of either technique.
-void add_points(const Light& light, const LightSampler& sampler, const SurfacePoint& point, const Surface& lobe,
-                const Vec2f& u_light, const Vec3f& u_lobe, std::vector<WeightedPoint>& result) {
-    if (const auto place = sampler.sample(u_light); place && place->pdf_omega > 0.0f && point.faces(place->wi)) {
+void add_points(const Light& light, const LightSampler& sampler, const Vertex& vertex, const Vec2f& u_light,
+                const Vec3f& u_lobe, std::vector<WeightedPoint>& result) {
+    const SurfacePoint& point = vertex.point;
+    const Surface& lobe = vertex.surface;
+    if (const auto place = sampler.sample(u_light); place && place->pdf_omega > 0.0f && vertex.is_open_to(place->wi)) {
         const Vec3f wi_local = point.frame.to_local(place->wi);
         const float share = sampler.shares_with_bsdf() ? balance(place->pdf_omega, pdf_omega(lobe, wi_local)) : 1.0f;
         result.push_back({place->wi, place->distance_m * shadow_reach,
@@ -36,7 +39,7 @@ void add_points(const Light& light, const LightSampler& sampler, const SurfacePo
     if (!sampler.shares_with_bsdf()) return;
     const Vec3f wi_local = sample(lobe, u_lobe.x, Vec2f(u_lobe.y, u_lobe.z)), wi = point.frame.to_world(wi_local);
     const float pdf = pdf_omega(lobe, wi_local);
-    if (!(pdf > 0.0f) || !point.faces(wi)) return;
+    if (!(pdf > 0.0f) || !vertex.is_open_to(wi)) return;
     if (const auto place = intersect_light(light, point.position, wi))
         result.push_back({wi, place->distance_m * shadow_reach,
                           eval(lobe, wi_local) * place->radiance * (balance(pdf, sampler.pdf_omega(*place)) / pdf)});
@@ -60,7 +63,7 @@ struct Seen {
 Seen look(const Scene& scene, std::uint32_t max_passages, const SurfacePoint& point, std::span<const WeightedPoint> all,
           bool traces_rays) {
     std::vector<Ray> rays;
-    for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m});
+    for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m, point.time});
     std::vector<Rgb> open(rays.size(), Rgb(1.0f));
     ProgramMemory memory;
     if (traces_rays) light_along(scene, max_passages, rays, open, memory);
@@ -88,6 +91,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
                              const Light& light, const LightRules& rules, const SurfacePoint& point,
                              const Surface& lobe) {
     const LightSampler sampler(light, point, lobe, LightSampling::joint);
+    const Vertex vertex{{}, point, lobe};
     const float budget = 0.01f * settings.error_budget_percent;
     const PointCounts& counts = sampler.shares_with_bsdf() ? sought : followed;
     LobeReflection result;
@@ -98,7 +102,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         float squares = 0.0f;
         for (std::uint32_t k = 0; k < count; ++k) {
             const std::size_t first = all.size();
-            add_points(light, sampler, point, lobe, points.point(PointSet::lobe_light, k, count),
+            add_points(light, sampler, vertex, points.point(PointSet::lobe_light, k, count),
                        lobe_numbers(points, PointSet::lobe_direction, k, count), all);
             float both = 0.0f;
             for (std::size_t i = first; i < all.size(); ++i) both += mean_component(all[i].value);
@@ -126,11 +130,12 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
     for_each_lobe(lobe, [&](const auto& l, const LobeOf<float>&, bool) { albedo += l.albedo(lobe.wo_local); });
     const std::uint32_t count = std::max(points.count(), followed.fewest);
     std::vector<WeightedPoint> all;
+    const Vertex vertex{{}, point, lobe};
     for (std::uint32_t k = 0; k < count; ++k) {
         const Vec3f u = lobe_numbers(points, PointSet::lobe_world, k, count);
         const Vec3f wi_local = sample(lobe, u.x, Vec2f(u.y, u.z)), wi = point.frame.to_world(wi_local);
         const float pdf = pdf_omega(lobe, wi_local);
-        if (pdf > 0.0f && point.faces(wi))
+        if (pdf > 0.0f && vertex.is_open_to(wi))
             all.push_back({wi, std::numeric_limits<float>::infinity(), eval(lobe, wi_local) / pdf});
     }
     const Seen seen = look(scene, settings.max_passages, point, all, settings.occlusion == Occlusion::ray_traced);

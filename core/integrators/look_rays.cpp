@@ -13,7 +13,7 @@ void look(const LookedAt& from, const FacetRayOf<float>& facet, bool is_smooth, 
     const Vec3f wi = from.point.frame.to_world(facet.wi_local);
     const bool is_refracted = facet.wi_local.z < 0.0f;
     if (!from.point.faces(is_refracted ? -wi : wi)) return;
-    rays.push_back({.ray = {.origin = from.point.ray_origin(wi), .direction = wi},
+    rays.push_back({.ray = {.origin = from.point.ray_origin(wi), .direction = wi, .time = from.point.time},
                     .sample = from.sample,
                     .worth = worth,
                     .ray_kind = (is_refracted ? transmission_ray : glossy_ray) | (from.arrival.ray_kind & ~ray_kinds),

@@ -64,7 +64,7 @@ float emission_weight(const Work& work, std::uint32_t bounce, const VertexBatch&
                       std::size_t lane, const Vec3f& wi, float bsdf_pdf_omega, const RayHit& hit) {
     const auto index = work.scene.light_of(hit);
     if (!index) return 1.0f;
-    const Light& light = work.scene.light(*index);
+    const Light light = work.scene.light_at(*index, hit.time);
     const auto place = light_point(std::get<AreaLight>(light), wi, hit.distance_m);
     if (!place) return 1.0f;
     return bsdf_weight(light, work.settings.light_sampling, bounce, vertices.lane(lane), *place,
@@ -117,31 +117,63 @@ PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Pat
     for (std::size_t i = count; i < batch_size; ++i) lanes[i] = lanes[count - 1], samplers[i] = samplers[count - 1];
     PathBatch batch{paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
                     VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
-    if (!work.is_diffused.empty() && any(batch.vertices.surface.has_lobes()))
-        open_to_walks(batch.vertices.surface, gather([&](std::size_t i) {
-                                                  return work.is_diffused[lanes[i]->sample] ? 0.0f : 1.0f;
-                                              }) > Batch(0.0f));
+    if (!work.is_diffused.empty() && any(batch.vertices.surface.has_lobes())) {
+        const auto where = [&](const auto& is) {
+            return gather([&](std::size_t i) { return is(*lanes[i]) ? 1.0f : 0.0f; }) > Batch(0.0f);
+        };
+        open_to_walks(batch.vertices.surface, where([&](const Path& path) {
+                          return work.scene.inner_rays().has_inside(path.arrival.hit.instance);
+                      }),
+                      where([&](const Path& path) { return work.is_diffused[path.sample] == 0; }));
+    }
     if (!work.min_pdf_omega.empty()) batch.vertices.surface = blurred(batch.vertices.surface, least_alpha(work, lanes));
     return batch;
 }
 
+using VectorLanes = std::array<Vec3f, batch_size>;
+
+VectorLanes lanes_of(const Vec3b& v) {
+    const Lanes x = store(v.x), y = store(v.y), z = store(v.z);
+    VectorLanes lanes;
+    for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = {x[i], y[i], z[i]};
+    return lanes;
+}
+
 /// What the passes tell of the first hits, and their own light.
 void see_first_hits(const Work& work, const PathBatch& batch) {
-    const auto lanes_of = [](const Vec3b& v) { return std::array{store(v.x), store(v.y), store(v.z)}; };
-    const auto normal = lanes_of(batch.vertices.point.frame.z),
-               albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
-    const auto all_albedo =
-        lanes_of(work.settings.denoising_passes ? denoising_albedo(batch.vertices.surface) : Vec3b(Batch(0.0f)));
-    const auto at = [](const auto& lanes, std::size_t i) { return Rgb(lanes[0][i], lanes[1][i], lanes[2][i]); };
+    const VectorLanes normal = lanes_of(batch.vertices.point.frame.z),
+                      albedo = lanes_of(diffuse_color(batch.vertices.surface)), emission = lanes_of(batch.emission);
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
         Sample& sample = work.samples[batch.paths[i].sample];
-        const Rgb emitted = batch.paths[i].throughput * at(emission, i);
+        const Rgb emitted = batch.paths[i].throughput * emission[i];
         sample.radiance += emitted;
         sample.emission += emitted;
         if (!(batch.paths[i].emission_weight > 0.0f)) continue;
-        sample.normal = at(normal, i);
-        sample.albedo = at(albedo, i);
-        if (work.settings.denoising_passes) sample.denoising_albedo = at(all_albedo, i);
+        sample.normal = normal[i];
+        sample.albedo = albedo[i];
+    }
+}
+
+/// What a denoiser goes by, up to the first surface that is not like a mirror or clear glass; of paths that meet none,
+/// the last.
+void see_features(const Work& work, std::uint32_t bounce, const PathBatch& batch) {
+    const auto is_seen = [&](const Path& path) {
+        return max_component(work.feature_worths[path.sample]) > 0.0f && (bounce > 0 || path.emission_weight > 0.0f);
+    };
+    if (std::ranges::none_of(batch.paths, is_seen)) return;
+    constexpr float least_clear = 0.75f;
+    const Vec3b all = denoising_albedo(batch.vertices.surface), through = clear_albedo(batch.vertices.surface);
+    const Lanes is_clear =
+        store(select(mean_component(through) > Batch(least_clear) * mean_component(all), Batch(1.0f), Batch(0.0f)));
+    const VectorLanes albedo = lanes_of(all), worth = lanes_of(through),
+                      normal = lanes_of(batch.vertices.point.frame.z);
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+        if (!is_seen(batch.paths[i])) continue;
+        Sample& sample = work.samples[batch.paths[i].sample];
+        Rgb& so_far = work.feature_worths[batch.paths[i].sample];
+        sample.denoising_albedo = so_far * albedo[i];
+        sample.denoising_normal = normal[i];
+        so_far *= is_clear[i] * worth[i];
     }
 }
 
@@ -188,7 +220,8 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     return {.rays = {.origin = vertices.point.ray_origin(wi),
                      .direction = wi,
                      .near_m = zero,
-                     .far_m = select(goes_on, std::numeric_limits<Batch>::infinity(), zero)},
+                     .far_m = select(goes_on, std::numeric_limits<Batch>::infinity(), zero),
+                     .time = vertices.point.time},
             .throughput = throughput,
             .pdf_omega = pdf,
             .goes_on = goes_on,
@@ -299,6 +332,7 @@ std::size_t trace_bounce(const Work& work, Fog* fog, const BouncePlan& plan, Ver
         see_first_hits(work, batch);
     else if (work.scene.shaders()[paths[0].arrival.material].has_varying_emission())
         add_light(work, bounce - 1, batch, batch.lanes.throughput * batch.emission * batch.lanes.emission_weight);
+    if (!work.feature_worths.empty()) see_features(work, bounce, batch);
     if (bounce > work.settings.max_bounces) return count;
     const VertexLights lights(work.scene, plan, batch.vertices);
     SharedLamps shared;
@@ -346,6 +380,7 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                                      std::numeric_limits<float>::infinity());
     std::vector<std::uint8_t> is_diffused(scene.inner_rays().is_empty() ? 0 : (has_media ? 2 : 1) * count);
     std::vector<PassShares> pass_shares(passes.size());
+    std::vector<Rgb> feature_worths(settings.denoising_passes ? (has_media ? 2 : 1) * count : 0, Rgb(1.0f));
     const Work work{scene,
                     settings,
                     has_media ? std::span<const Sampler>(own_samplers) : samplers,
@@ -354,7 +389,8 @@ void trace_paths(const Scene& scene, const RenderSettings& settings, std::span<c
                     min_pdf_omega,
                     is_diffused,
                     passes,
-                    pass_shares};
+                    pass_shares,
+                    feature_worths};
     std::optional<Fog> in_media;
     if (has_media) in_media.emplace(work, static_cast<std::uint32_t>(count));
     Fog* fog = in_media ? &*in_media : nullptr;

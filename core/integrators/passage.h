@@ -43,8 +43,8 @@ inline std::vector<StraightRay> straight_rays(std::span<const Ray> camera_rays,
 
 /// A ray's part that begins behind a surface, or all of it up to there.
 inline Ray part_of(const Ray& ray, float from_m, float to_m) {
-    if (!(from_m > 0.0f)) return {ray.origin, ray.direction, ray.near_m, to_m};
-    return {ray.origin + from_m * ray.direction, ray.direction, 0.0f, to_m - from_m};
+    if (!(from_m > 0.0f)) return {ray.origin, ray.direction, ray.near_m, to_m, ray.time};
+    return {ray.origin + from_m * ray.direction, ray.direction, 0.0f, to_m - from_m, ray.time};
 }
 
 /// How paths choose between a surface and what is behind it.

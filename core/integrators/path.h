@@ -41,6 +41,8 @@ struct Work {
     std::span<std::uint8_t> is_diffused;  ///< whether anything diffuse reflected a path so far; empty: nobody asks
     std::span<SurfacePasses> passes{};    ///< of each sample that first meets a surface; empty: nobody asks
     std::span<PassShares> pass_shares{};  ///< likewise, of the path so far
+    std::span<Rgb> feature_worths{};      ///< of each sample, how much mirrors and glass so far show of what a denoiser
+                                          ///< goes by, 0 once that is known; empty: there is no denoiser
 };
 
 /// How much wider a footprint grows for each m past a BSDF sample: a sample stands for the directions that it is drawn

@@ -119,7 +119,7 @@ BatchMask walk_beneath(const Work& work, const BouncePlan& plan, std::span<const
             const Vec3f wi = entry_direction(vertex.point, vertex.surface.wo_local, lobe.inside, u,
                                              sampler.point(plan.dimensions.direction()));
             const auto each = [&](auto of) { return Rgb(of(0), of(1), of(2)); };
-            Walker walker{{.origin = vertex.point.ray_origin(wi), .direction = wi},
+            Walker walker{{.origin = vertex.point.ray_origin(wi), .direction = wi, .time = vertex.point.time},
                           each([&](int c) { return lobe.enters[c] > 0.0f ? 1.0f : 0.0f; })};
             const auto hit = walk(work.scene.inner_rays(), path.arrival, medium_of(lobe.inside), walker, random);
             if (!hit) return;

@@ -125,6 +125,7 @@ class LightCut {
         Batch seen(0.0f), all(0.0f);
         std::vector<BatchMask> asked(cut_.size());
         const Batch error_m = gather([&](std::size_t i) { return batch_.lanes[i]->point.error_m; });
+        const Batch time = gather([&](std::size_t i) { return batch_.lanes[i]->point.time; });
         const Vec3b origin = batch_.position + normal_geometric_ * error_m;
         for (std::size_t k = 0; k < cut_.size(); ++k) {
             CutLight& cut = cut_[k];
@@ -135,7 +136,7 @@ class LightCut {
             for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
                 const PlaceInView place = place_in_view(*cut.light, asked[k], turn_ * rays_per_light + ray);
                 RayOf<Batch> rays{origin, place.wi, zero,
-                                  select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero)};
+                                  select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero), time};
                 // Light from places that are all behind the surface comes through it.
                 Batch visible = select(place.is_faced, scene.visibility(rays), zero);
                 if (scene.has_transparency()) {

@@ -68,16 +68,16 @@ Vec2f Lens::sample_m(const Vec2f& u) const {
     return radius_m * Vec2f(place.x / ratio, place.y);
 }
 
-Ray Camera::ray_from(const Vec2f& pixel, const Vec2f& lens_place_m) const {
+Ray Camera::ray_from(const Vec2f& pixel, const Vec2f& lens_place_m, float time) const {
     const Vec2f place(lerp(left, right, pixel.x / static_cast<float>(width)),
                       lerp(bottom, top, pixel.y / static_cast<float>(height)));
+    const Transform placed = motion ? motion->at(time) : world_from_camera;
     return std::visit(
         [&](const auto& kind) -> Ray {
-            if (!sees(kind, place)) return {world_from_camera.translation, -world_from_camera.linear[2], 0.0f, 0.0f};
+            if (!sees(kind, place)) return {placed.translation, -placed.linear[2], 0.0f, 0.0f, time};
             const LensRay ray = lens_ray(kind, *this, place, lens_place_m);
-            return {world_from_camera.point(kind.in_camera(ray.origin)),
-                    normalize(world_from_camera.vector(kind.in_camera(ray.direction))),
-                    (clip_start_m - ray.near_m) * ray.slant, (clip_end_m - ray.near_m) * ray.slant};
+            return {placed.point(kind.in_camera(ray.origin)), normalize(placed.vector(kind.in_camera(ray.direction))),
+                    (clip_start_m - ray.near_m) * ray.slant, (clip_end_m - ray.near_m) * ray.slant, time};
         },
         projection);
 }

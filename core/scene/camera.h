@@ -2,8 +2,9 @@
 #pragma once
 
 #include "core/geometry/projection.h"
-#include "core/math/transform.h"
+#include "core/math/moving_transform.h"
 #include "core/scene/ray_tracer.h"
+#include "core/scene/shutter.h"
 #include "core/shaders/place.h"
 
 namespace pivot {
@@ -39,6 +40,8 @@ struct PixelWidth {
 /// Camera space looks down -z, y up.
 struct Camera {
     Transform world_from_camera;
+    std::shared_ptr<const MovingTransform> motion{};  ///< of world_from_camera; null: it stays where it is
+    std::shared_ptr<const Shutter> shutter{};         ///< null: open all the time
     Projection projection;
     Lens lens;
     float left = -1, right = 1, bottom = -1, top = 1;  ///< the full frame, in places of the projection
@@ -49,9 +52,13 @@ struct Camera {
 
     /// Through a place of the full frame, in pixels from the bottom left (a pixel's centre is at .5), and the middle of
     /// the lens. Where a fisheye sees nothing there is no such ray: its far_m is 0.
-    Ray ray(const Vec2f& pixel) const { return ray_from(pixel, Vec2f(0.0f)); }
+    Ray ray(const Vec2f& pixel, float time = middle_time) const { return ray_from(pixel, Vec2f(0.0f), time); }
     /// Through a place of the lens too. u_lens in [0, 1)^2.
-    Ray ray(const Vec2f& pixel, const Vec2f& u_lens) const { return ray_from(pixel, lens.sample_m(u_lens)); }
+    Ray ray(const Vec2f& pixel, const Vec2f& u_lens, float time = middle_time) const {
+        return ray_from(pixel, lens.sample_m(u_lens), time);
+    }
+    /// When it takes a sample. u in [0, 1).
+    float time(float u) const { return shutter ? shutter->time(u) : u; }
 
     /// What shaders ask of it.
     CameraFacts facts() const;
@@ -63,7 +70,7 @@ struct Camera {
     float depth_m(const Vec3f& point) const;
 
    private:
-    Ray ray_from(const Vec2f& pixel, const Vec2f& lens_place_m) const;
+    Ray ray_from(const Vec2f& pixel, const Vec2f& lens_place_m, float time) const;
 };
 
 }  // namespace pivot

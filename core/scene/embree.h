@@ -1,5 +1,5 @@
-// Embree's handles, owned, and how its geometry and BVHs are made. Only ray_tracer.cpp, inner_rays.cpp
-// and mesh_bvhs.cpp include it.
+// Embree's handles, owned, and how its geometry and BVHs are made. Seen by the files of BVHs and by ray_tracer.cpp
+// alone.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)
@@ -37,6 +37,8 @@ struct EmbreeDevice {
     void build(RTCScene scene, std::size_t triangle_count, bool filters) const;
     /// positions: of the mesh's vertices. They and the mesh are read in place.
     Owned<RTCGeometry> make_triangles(const Mesh& mesh, const std::vector<Vec3f>& positions) const;
+    /// They are read in place.
+    Owned<RTCGeometry> make_curves(const Curves& curves) const;
 };
 
 /// A mesh in its own space.
@@ -65,6 +67,7 @@ inline RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
     r.tnear = ray.near_m;
     r.tfar = ray.far_m;
+    r.time = ray.time;
     r.mask = mask;
     return r;
 }

@@ -21,13 +21,16 @@ class InnerRays {
              const std::vector<bool>& has_inside);
     bool is_empty() const { return insides_.empty(); }
 
-    /// Where a ray next meets the surface of an instance. Of one that is scaled flat, or has no inside: nowhere.
+    /// Of curves, and of what is scaled flat, there is none.
+    bool has_inside(std::uint32_t instance) const { return !insides_.empty() && insides_[instance].bvh; }
+    /// Where a ray next meets the surface of an instance that has an inside.
     std::optional<RayHit> intersect(const Ray& ray, std::uint32_t instance) const;
 
    private:
     struct Inside {
         std::shared_ptr<const MeshBvh> bvh;  ///< none: there is no inside
         Transform object_from_world;
+        std::shared_ptr<const MovingTransform> world_from_moving;  ///< none: it stays where it is
     };
     std::shared_ptr<MeshBvhs> bvhs_;
     std::vector<Inside> insides_;  ///< of each instance; empty: none has any

@@ -63,6 +63,7 @@ Media::Media(const std::shared_ptr<const Medium>& world, std::span<const std::sh
         const auto has_medium = [&](std::uint32_t material) { return shaders[material].medium != nullptr; };
         if (!instance || std::ranges::none_of(instance->materials, has_medium)) continue;
         const Mesh& mesh = *meshes[instance->mesh];
+        if (mesh.curves) continue;  // they surround nothing
         Boundary& boundary = boundaries_.emplace_back(Boundary{&mesh, &*instance, {}});
         for (const std::uint32_t material : instance->materials) {
             const std::shared_ptr<const Medium>& medium = shaders[material].medium;

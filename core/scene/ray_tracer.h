@@ -1,4 +1,4 @@
-// Closest hits and occlusion over instanced meshes. It alone, and the BVHs of mesh_bvhs.h, know Embree.
+// Closest hits and occlusion over instanced meshes.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "core/geometry/mesh.h"
-#include "core/math/transform.h"
+#include "core/math/moving_transform.h"
 #include "core/scene/mesh_bvhs.h"
+#include "core/scene/visibility.h"
 #include "core/simd/batch.h"
 
 namespace pivot {
@@ -23,6 +24,7 @@ struct RayOf {
     Vec3<T> direction;  ///< unit
     T near_m = T(0);
     T far_m = std::numeric_limits<T>::infinity();  ///< of a batch; not above 0: there is no such ray
+    T time = T(middle_time);                       ///< at which it meets what moves
 };
 
 template <class T>
@@ -30,33 +32,21 @@ struct RayHitOf {
     T distance_m;
     Word<T> instance;  ///< of a batch; no_instance: the ray met nothing
     Word<T> triangle;
-    Vec2<T> barycentric;  ///< weights of the triangle's second and third corner
+    Vec2<T> barycentric;      ///< weights of the triangle's second and third corner
+    T time = T(middle_time);  ///< the ray's
 };
 
 using Ray = RayOf<float>;
 using RayHit = RayHitOf<float>;
 inline constexpr std::uint32_t no_instance = ~0u;
 
-/// Which rays meet an instance: those of a camera, and of paths by how they were last reflected or scattered. Shadow
-/// rays of what casts shadows end at what hides light, and pass what filters it.
-enum Visibility : std::uint32_t {
-    visible_to_camera = 1,
-    visible_to_diffuse = 2,
-    visible_to_glossy = 4,
-    visible_to_transmission = 8,
-    visible_to_scatter = 16,
-    visible_to_paths = 30,  ///< all kinds of them
-    casts_shadows = 32,
-    visible_to_all = 63,
-    hides_light = 64,
-    filters_light = 128,
-};
-
 /// Where a ray passes through a surface.
 struct Crossing {
     float distance_m;
     std::uint32_t instance, triangle;
 };
+
+class InstanceBvhs;
 
 class RayTracer {
    public:
@@ -67,9 +57,12 @@ class RayTracer {
     RayTracer(const RayTracer&) = delete;
     RayTracer& operator=(const RayTracer&) = delete;
 
+    /// Also in place of another, of whose instances it is then.
     void set_mesh(std::uint32_t mesh_id, std::shared_ptr<const Mesh> mesh);
     void set_instance(std::uint32_t instance_id, std::uint32_t mesh_id, const Transform& world_from_object,
                       std::uint32_t visibility);
+    /// Where an instance is at each time; until it is set again. Not of one that is scaled flat.
+    void set_instance_motion(std::uint32_t instance_id, std::shared_ptr<const MovingTransform> motion);
     /// Who sees an instance; at once, and without a build.
     void set_visibility(std::uint32_t instance_id, std::uint32_t visibility);
     void remove_instance(std::uint32_t instance_id);
@@ -110,8 +103,7 @@ class RayTracer {
                    const IsOpaque& is_opaque, std::vector<Filtered>& found) const;
 
    private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<InstanceBvhs> bvhs_;
 };
 
 }  // namespace pivot

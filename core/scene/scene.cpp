@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/bsdf/subsurface_entry.h"
+#include "core/geometry/curves.h"
 
 namespace pivot {
 namespace {
@@ -22,6 +23,7 @@ void require_finite(const Transform& t, const std::string& object) {
 }
 
 void require_valid(const Mesh& mesh) {
+    if (mesh.curves) return;  // make_curves() has looked at them
     const auto fail = [&](const std::string& what) {
         throw std::invalid_argument("mesh '" + mesh.name + "': " + what);
     };
@@ -49,6 +51,22 @@ void require_valid(const Mesh& mesh) {
     };
     check_normals(mesh.corner_normals, "corner");
     check_normals(mesh.vertex_normals, "vertex");
+}
+
+/// Steps have as much of all as the mesh.
+void require_steps(const Mesh& mesh) {
+    const auto is_like_mesh = [&](const MeshStep& step) {
+        return step.positions.size() == mesh.positions.size() &&
+               step.corner_normals.size() == mesh.corner_normals.size() &&
+               step.vertex_normals.size() == mesh.vertex_normals.size();
+    };
+    if (mesh.steps.size() < 2 || mesh.steps.size() > MovingTransform::max_steps ||
+        !std::ranges::all_of(mesh.steps, is_like_mesh))
+        throw std::invalid_argument("mesh '" + mesh.name +
+                                    "': its motion needs 2 to 129 steps of as many vertices and corners as it has");
+    for (const MeshStep& step : mesh.steps)
+        if (!std::ranges::all_of(step.positions, is_finite))
+            throw std::invalid_argument("mesh '" + mesh.name + "': a vertex is not finite as it moves");
 }
 
 void require_valid(const std::string& name, const Material& material) {
@@ -196,9 +214,30 @@ void Scene::set_instance_transform(std::uint32_t id, const Transform& world_from
     require_finite(world_from_object, instance.name);
     instance.world_from_object = world_from_object;
     instance.normal_matrix = world_from_object.normal_matrix();
+    instance.motion.reset();
     ray_tracer_.set_instance(id, instance.mesh, world_from_object, instance.visibility);
     instance_lights_[id].is_stale = true;
     bent_cones_.clear();
+}
+
+void Scene::set_instance_motion(std::uint32_t id, std::shared_ptr<const MovingTransform> motion) {
+    const auto edit = begin_edit();
+    Instance& instance = at_present(instances_, id, "instance");
+    for (const Transform& step : motion->steps()) require_finite(step, instance.name);
+    if (!instance.world_from_object.is_invertible()) return;
+    ray_tracer_.set_instance_motion(id, motion);
+    instance.motion = std::move(motion);
+    instance_lights_[id].is_stale = true;
+}
+
+void Scene::set_mesh_motion(std::uint32_t id, std::vector<MeshStep> steps) {
+    const auto edit = begin_edit();
+    std::shared_ptr<const Mesh>& mesh = at(meshes_, id, "mesh");
+    Mesh moving = *mesh;
+    moving.steps = std::move(steps);
+    require_steps(moving);
+    mesh = std::make_shared<const Mesh>(std::move(moving));
+    ray_tracer_.set_mesh(id, mesh);
 }
 
 void Scene::set_instance_visibility(std::uint32_t id, std::uint32_t visibility) {
@@ -266,6 +305,8 @@ void Scene::set_camera(const Camera& camera) {
         !std::isfinite(lens.focus_m) || !std::isfinite(lens.ratio) || !std::isfinite(lens.rotation_rad)) {
         throw std::invalid_argument("camera: its lens must be finite, with its focus and its ratio above 0");
     }
+    if (camera.motion)
+        for (const Transform& step : camera.motion->steps()) require_finite(step, "camera");
     const Ray middle = camera.ray(0.5f * Vec2f(static_cast<float>(camera.width), static_cast<float>(camera.height)));
     if (!is_finite(middle.origin) || !is_finite(middle.direction) || std::isnan(camera.clip_end_m) ||
         !std::isfinite(camera.clip_start_m) || !std::isfinite(camera.pixel_width().at(1.0f))) {
@@ -280,6 +321,7 @@ void Scene::commit() {
     if (is_committed_) return;
     if (camera_.width == 0) throw std::invalid_argument("the scene has no camera: call set_camera");
     commit_visibility();
+    commit_motion();
     media_ = std::make_unique<const Media>(world_medium_, meshes_, instances_, shaders_);
     ray_tracer_.commit();
     commit_inner_rays();
@@ -289,6 +331,27 @@ void Scene::commit() {
     commit_triangle_lights();
     commit_light_rules();
     is_committed_ = true;
+}
+
+bool Scene::is_moving(std::uint32_t instance) const {
+    const auto& present = instances_[instance];
+    return present && (present->motion || !meshes_[present->mesh]->steps.empty());
+}
+
+void Scene::commit_motion() {
+    moves_ = camera_.motion != nullptr;
+    for (std::uint32_t i = 0; i < instances_.size() && !moves_; ++i) moves_ = is_moving(i);
+}
+
+Light Scene::light_at(std::size_t place, float time) const {
+    if (!is_moving_light(place)) return light(place);
+    const auto [id, triangle] = scene_triangles_[place - lamps_.size()];
+    const HitTriangleOf<float> at = triangle_at(*instances_[id], *meshes_[instances_[id]->mesh], triangle, time);
+    const Transform& world = at.world_from_object;
+    const auto moved =
+        make_triangle_light({world.point(at.corner_a), world.point(at.corner_b), world.point(at.corner_c)},
+                            std::get<AreaLight>(light(place)).radiance);
+    return moved ? *moved : light(place);
 }
 
 void Scene::commit_visibility() {
@@ -440,6 +503,7 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (!instances_[i]) continue;
         const Mesh& mesh = *meshes_[instances_[i]->mesh];
+        if (mesh.curves) continue;
         auto& of_mesh = sites[instances_[i]->mesh];
         if (!of_mesh) of_mesh = std::make_shared<const BentConeSites>(mesh);
         cones[i].emplace(ray_tracer_, mesh, of_mesh, instances_[i]->world_from_object, reach, should_stop);
@@ -449,8 +513,15 @@ void Scene::trace_bent_cones(const std::function<bool()>& should_stop) {
     bent_cone_reach_ = std::move(reach);
 }
 
-HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit) const {
-    return triangle_of(*instances_[hit.instance], mesh_of(hit), hit.triangle);
+HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit, const Vec3f& direction) const {
+    const Instance& instance = *instances_[hit.instance];
+    const Mesh& mesh = *meshes_[instance.mesh];
+    if (!mesh.curves) return triangle_at(instance, mesh, hit.triangle, hit.time);
+    const Vec3f direction_object = glm::inverse(instance.world_from_object.linear) * direction;
+    HitTriangleOf<float> triangle = touching_triangle(*mesh.curves, hit.triangle, hit.barycentric, direction_object);
+    triangle.world_from_object = instance.world_from_object;
+    triangle.normal_matrix = instance.normal_matrix;
+    return triangle;
 }
 
 }  // namespace pivot

@@ -51,6 +51,11 @@ class Scene {
     void set_material(std::uint32_t id, Shader shader);
     void set_light(std::uint32_t id, const Light& light, const LightRules& rules = {});
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
+    /// Where an instance is while the shutter is open; until its transform is set again, which is where it stands in
+    /// the middle of that. One that is scaled flat then stays where it is.
+    void set_instance_motion(std::uint32_t id, std::shared_ptr<const MovingTransform> motion);
+    /// How a mesh deforms meanwhile: steps at even times, at least two, of as many vertices and corners as it has.
+    void set_mesh_motion(std::uint32_t id, std::vector<MeshStep> steps);
     void set_instance_visibility(std::uint32_t id, std::uint32_t visibility);
     void set_instance_materials(std::uint32_t id, const std::vector<std::uint32_t>& materials);
     void remove_instance(std::uint32_t id);
@@ -68,6 +73,8 @@ class Scene {
     /// as it is. None are there once should_stop has returned true.
     void trace_bent_cones(const std::function<bool()>& should_stop);
 
+    /// Whether anything changes while the shutter is open; elsewhere rays need no time.
+    bool moves() const { return moves_; }
     const Camera& camera() const { return camera_; }
     const CameraFacts& camera_facts() const { return camera_facts_; }
     WorldView world_view() const { return {world_, camera_facts_}; }
@@ -88,6 +95,12 @@ class Scene {
     bool has_varying_lights() const { return has_varying_lights_; }
     /// Whether any light's rules say anything; elsewhere they need not be asked.
     bool has_light_rules() const { return has_light_rules_; }
+    /// Whether a light, by its place, moves: a triangle of what does.
+    bool is_moving_light(std::size_t place) const {
+        return moves_ && place >= lamps_.size() && is_moving(scene_triangles_[place - lamps_.size()].instance);
+    }
+    /// A light by its place, where it is at a time.
+    Light light_at(std::size_t place, float time) const;
     /// Of a light by its place.
     const LightRules& rules_of(std::size_t place) const { return light_rules_[place]; }
     /// The triangle that one of triangle_lights() is.
@@ -132,9 +145,10 @@ class Scene {
     bool has_holdouts() const { return has_holdouts_; }
     bool is_holdout(const RayHit& hit) const { return instances_[hit.instance]->is_holdout; }
     Batch visibility(const RayOf<Batch>& rays) const { return ray_tracer_.visibility(rays); }
-    HitTriangleOf<float> hit_triangle(const RayHit& hit) const;
+    /// direction: of the ray, world, of any length.
+    HitTriangleOf<float> hit_triangle(const RayHit& hit, const Vec3f& direction) const;
     SurfacePoint surface_point(const Ray& ray, const RayHit& hit) const {
-        return pivot::surface_point(hit_triangle(hit), hit.barycentric, -ray.direction);
+        return pivot::surface_point(hit_triangle(hit, ray.direction), hit.barycentric, -ray.direction);
     }
     /// What every material means; an id is its place.
     std::span<const Shader> shaders() const { return shaders_; }
@@ -150,7 +164,8 @@ class Scene {
     const ObjectFacts& facts_of(const RayHit& hit) const { return instances_[hit.instance]->facts; }
     /// What surrounding geometry leaves free, in world space; after trace_bent_cones().
     Cap<float> bent_cone(const RayHit& hit, const SurfacePoint& point) const {
-        return bent_cones_[hit.instance]->at(hit, point.front > 0.0f);
+        const std::optional<BentCones>& cones = bent_cones_[hit.instance];  // none of curves
+        return cones ? cones->at(hit, point.front > 0.0f) : Cap<float>{point.frame.z, 1.0f};
     }
 
    private:
@@ -168,8 +183,10 @@ class Scene {
     [[nodiscard]] std::unique_lock<std::mutex> begin_edit();
     std::optional<Light>& light_at(std::uint32_t id);
     void require_materials(const Instance& instance) const;
+    bool is_moving(std::uint32_t instance) const;
     void commit_visibility();
     void commit_inner_rays();
+    void commit_motion();
     void commit_lamps();
     void commit_triangle_lights();
     void commit_light_rules();
@@ -200,7 +217,7 @@ class Scene {
     RayTracer ray_tracer_;
     InnerRays inner_rays_;
     std::unique_ptr<const Media> media_;
-    bool has_transparency_ = false, has_holdouts_ = false;
+    bool has_transparency_ = false, has_holdouts_ = false, moves_ = false;
     std::mutex editing_;  ///< an edit, or a hold that begins or ends, at a time
     int holders_ = 0;
     std::mutex committing_, tracing_bent_cones_;

@@ -45,6 +45,7 @@ TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, 
                                     const CameraFacts& camera) {
     TriangleLights made;
     made.light_of_triangle.assign(mesh.triangles.size(), TriangleLights::no_light);
+    if (mesh.curves) return made;  // found by the rays that meet them
     ProgramMemory memory;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Shader& shader = shaders[material_of(instance, mesh, i)];

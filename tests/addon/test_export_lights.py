@@ -137,12 +137,11 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
         "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
         "object 'catcher': Shadow Catcher is not supported, it is shown as it is",
-        "object 'hair': hair strands are not supported, they are left out",
         "object 'panel', material 'glow': in the analytic integrator its triangles light others by a mean of each, "
         "in grey. Fix: use Monte Carlo",
         "object 'pane of window', material 'window': in the analytic integrator lamps do not shine through its rough "
         "glass. Fix: use Monte Carlo",
-        "scene 'Scene': Motion Blur is not supported, the picture is sharp",
+        "scene 'Scene': Clamp Direct is not supported, nothing is clamped",
         "world 'World': Diffuse Visibility is not supported, it lights diffuse surfaces too",
     ]
     if host.version >= (4, 0):

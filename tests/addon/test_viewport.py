@@ -46,7 +46,7 @@ def views(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 def test_views_show_what_is_theirs_where_it_belongs(views: Any) -> None:
     seen = {name: (view["found"], view["expected"]) for name, view in views.items() if "found" in view}
-    assert len(seen) == 17
+    assert len(seen) == 18
     for name, (found, expected) in seen.items():
         assert found == expected, name
 

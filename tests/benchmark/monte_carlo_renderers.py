@@ -51,8 +51,9 @@ class Pivot:
         camera: Any = bpy.context.scene.camera
         render = bpy.context.scene.render
         size = render.resolution_x, render.resolution_y
-        self.view_plane = importlib.import_module("pivot.export.camera").view_plane(camera.data, 0.0, *size)
-        self.scene.set_camera(np.array(camera.matrix_world), self.view_plane, *size)
+        matrix = np.array(camera.matrix_world)
+        optics = importlib.import_module("pivot.export.optics").optics_of(camera, matrix, 0.0, *size)
+        self.scene.set_camera(matrix, width=size[0], height=size[1], **optics.arguments(self._core))
         self._settings = settings
 
     def render(self, samples: int, seed: int) -> NDArray[np.float32]:

@@ -41,8 +41,8 @@ def watch_pivot() -> None:
         draw(*arguments)
         draws.append(time.perf_counter() - since_s)
 
-    def watched_start(viewport: Any, scene: Any, pixel_px: float, samples: int) -> None:
-        start(viewport, scene, pixel_px, samples)
+    def watched_start(viewport: Any, settings: Any, pixel_px: float) -> None:
+        start(viewport, settings, pixel_px)
         starts.append((time.monotonic(), time.thread_time(), pixel_px))
 
     def watched_arrays(mesh: Any) -> Any:

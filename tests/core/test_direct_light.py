@@ -69,15 +69,34 @@ SURFACES = {
         multiscatter=True,
     ),
 }
+METAL: dict[str, object] = {"conductor_f0": (0.9, 0.6, 0.3), "conductor_f90": WHITE}
+BESIDE_BASE = {  # surfaces with lobes that a base has not
+    "brushed": pivot_core.Material(lobes=[("anisotropic", METAL | {"alpha_x": 0.4, "alpha_y": 0.05, "rotation": 0.1})]),
+    "tilted coat": pivot_core.Material(
+        diffuse=(0.2, 0.3, 0.5),
+        alpha=0.3,
+        dielectric_weight=1.0,
+        lobes=[
+            ("base", {"alpha": 0.05, "dielectric_weight": 1.0}),
+            ("anisotropic", METAL | {"alpha_x": 0.1, "alpha_y": 0.2, "normal": (0.36, 0.0, np.sqrt(1 - 0.36**2))}),
+        ],
+    ),
+    "glass": pivot_core.Material(lobes=[("dielectric", {"alpha": 0.2, "ior": 1.5})]),
+    "leaf": pivot_core.Material(diffuse=(0.2, 0.4, 0.1), lobes=[("translucent", {"color": (0.2, 0.3, 0.1)})]),
+}
+SURFACES |= BESIDE_BASE
 VIEWS_RAD = {"from above": 0.5, "grazing": 1.45}  # towards the first light's mirror image, by azimuth
 SAMPLES, CELL_DEPTH = 20_000, 6
 GRID = 384  # pixels across a light that is alone
+
+SOME_LIGHTS = ("sphere", "sphere across the horizon", "rectangle", "ellipse across the horizon", "small triangle")
 
 # SPTD's lobe is one; modes that do not look at the surface need but one of them.
 CASES = [
     (mode, light, surface, view)
     for mode, light, surface, view in itertools.product(MODES, LIGHTS, SURFACES, VIEWS_RAD)
-    if mode == "JOINT"
+    if (mode == "JOINT" and surface not in BESIDE_BASE)
+    or (mode == "JOINT" and light in SOME_LIGHTS and (surface in ("brushed", "tilted coat") or view == "from above"))
     or (mode == "SPTD" and surface in ("metal 0.2", "plastic"))
     or (surface, view) == ("plastic", "from above")
 ]

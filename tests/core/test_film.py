@@ -76,6 +76,35 @@ def test_albedo_for_a_denoiser_is_of_all_lobes() -> None:
     assert np.all(albedo <= 1)
 
 
+def test_a_denoiser_goes_by_what_mirrors_and_glass_show() -> None:
+    """A red wall in a mirror, through a pane of glass: the Normal pass is of the pane, a denoiser's of the wall."""
+    scene = pivot_core.Scene()
+    red = scene.add_material("red", pivot_core.Material(diffuse=(0.8, 0.1, 0.1)))
+    mirror = scene.add_material(
+        "mirror", pivot_core.Material(alpha=1e-3, conductor_f0=(0.5,) * 3, conductor_f90=(0.5,) * 3)
+    )
+    pane = scene.add_material("pane", pivot_core.Material(lobes=[("dielectric", {"ior": 1.001, "alpha": 1e-3})]))
+    turned = place(0, 0, 3, 1)
+    turned[0, :3, :3] = np.diag([1.0, -1.0, -1.0])
+    scene.add_instances("mirror", add_plane(scene, 9), place(), [mirror])
+    scene.add_instances("wall", add_plane(scene, 9), turned, [red])
+    set_camera(scene, (0, -0.4, 2.5), size=(8, 8))
+    scene.add_instances("pane", add_plane(scene, 1), place(0, 0, 1, 1), [pane])
+    albedo, normal, first = passes(
+        "Denoising Albedo",
+        "Denoising Normal",
+        "Normal",
+        scene=scene,
+        samples=4,
+        max_bounces=6,
+        denoising_passes=True,
+        **BOX,
+    )
+    np.testing.assert_allclose(albedo, np.broadcast_to((0.4, 0.05, 0.05), albedo.shape), rtol=0.02)
+    np.testing.assert_allclose(normal[..., 2], -1, atol=1e-3)
+    np.testing.assert_allclose(first[..., 2], 1, atol=1e-3)
+
+
 def test_passes_for_a_denoiser_must_be_asked_for() -> None:
     for name in DENOISING_PASSES:
         with pytest.raises(ValueError, match=f"the pass '{name}' is for a denoiser: render with denoising_passes"):

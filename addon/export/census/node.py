@@ -27,6 +27,7 @@ NODE = {
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
     "ShaderNodeBsdfSheen": Table(used="distribution"),
+    "ShaderNodeBsdfHairPrincipled": Table(used="model parametrization"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
@@ -136,6 +137,12 @@ INPUTS = {
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
+    # What is Huang's alone is reported with the model.
+    "ShaderNodeBsdfHairPrincipled": Inputs(
+        "Color, Melanin, Melanin Redness, Tint, Absorption Coefficient, Roughness, Radial Roughness, Coat, IOR, Offset,"
+        "Random Color, Random Roughness, Random",
+        no_meaning="Weight, Aspect Ratio, R lobe, TT lobe, TRT lobe",
+    ),
     "ShaderNodeSubsurfaceScattering": Inputs(
         "Color, Scale, Radius, IOR, Roughness, Anisotropy, Normal", no_meaning="Weight"
     ),
@@ -232,6 +239,7 @@ INPUTS = {
     "ShaderNodeVertexColor": Inputs(),
     "ShaderNodeObjectInfo": Inputs(),
     "ShaderNodeParticleInfo": Inputs(),
+    "ShaderNodeHairInfo": Inputs(),
     "ShaderNodeLightPath": Inputs(),
     "ShaderNodeCameraData": Inputs(),
     "ShaderNodeLayerWeight": Inputs("Blend, Normal"),

@@ -11,11 +11,6 @@ def _is_surface(blender_object: Any) -> bool:
     return blender_object.type in {"MESH", "VOLUME"}
 
 
-def _without_strands(particle_systems: Any) -> bool:
-    settings = [system.settings for system in particle_systems]
-    return not any(each.type == "HAIR" and each.render_type == "PATH" for each in settings)
-
-
 def _is_not_adaptive(modifiers: Any) -> bool:
     """Adaptive subdivision is the modifier's from Blender 5.0, before that the object's."""
     return not any(getattr(modifier, "use_adaptive_subdivision", False) for modifier in modifiers)
@@ -41,12 +36,11 @@ OBJECT = {
         instance_type instance_collection instance_faces_scale use_instance_faces_scale use_instance_vertices_rotation
         is_instancer is_from_instancer is_from_set active_shape_key active_shape_key_index show_only_shape_key
         use_shape_key_edit_mode animation_data pose field soft_body rigid_body rigid_body_constraint collision
-        use_simulation_cache vertex_groups pass_index
+        use_simulation_cache vertex_groups pass_index particle_systems
         """,
         parts="light_linking cycles",
         left_out=(
             LeftOut("is_shadow_catcher", False, "it is shown as it is", when=_is_surface),
-            LeftOut("particle_systems", _without_strands, "they are left out", what="hair strands are"),
             LeftOut(
                 "modifiers", _is_not_adaptive, "it is as fine as its modifier says", what="adaptive subdivision is"
             ),
@@ -80,9 +74,10 @@ OBJECT = {
             ),
             LeftOut("shadow_terminator_offset", 0.0, "shadows begin where they do without"),
         ),
-        # Motion blur and culling are reported with the scene that turns them on.
+        used="use_motion_blur use_deform_motion motion_steps",
+        # Culling is reported with the scene that turns it on.
         no_meaning="""
-        name use_motion_blur use_deform_motion motion_steps use_camera_cull use_distance_cull dicing_rate
+        name use_camera_cull use_distance_cull dicing_rate
         shadow_terminator_geometry_offset ao_distance is_caustics_caster is_caustics_receiver
         """,
     ),
@@ -103,6 +98,13 @@ OBJECT = {
         has_crease_vertex texco_mesh use_auto_texspace use_mirror_topology use_paint_mask use_paint_mask_vertex
         total_vert_sel total_edge_sel total_face_sel auto_texspace texspace_location texspace_size cycles normals_domain
         use_remesh_preserve_attributes use_paint_bone_selection radial_symmetry@5.0
+        """,
+    ),
+    "Curves": Table(
+        used="curves points position_data curve_offset_data materials attributes animation_data",
+        no_meaning="""
+        surface surface_uv_map use_mirror_x use_mirror_y use_mirror_z selection_domain use_sculpt_selection
+        use_sculpt_collision surface_collision_distance color_attributes normals
         """,
     ),
 }

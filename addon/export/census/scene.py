@@ -15,6 +15,10 @@ def _is_transparent(cycles: Any) -> bool:
     return cycles.id_data.render.film_transparent
 
 
+def _is_blurred(cycles: Any) -> bool:
+    return cycles.id_data.render.use_motion_blur
+
+
 def _bounce_limit(name: str, default: int, what: str) -> LeftOut:
     """A limit of Cycles' that counts where it is below Blender's default and below Pivot's Max Bounces."""
 
@@ -54,12 +58,12 @@ SCENE = {
         film_transparent threads threads_mode use_border border_min_x border_min_y border_max_x border_max_y
         use_crop_to_border use_multiview views views_format stereo_views use_persistent_data use_simplify
         simplify_subdivision_render simplify_child_particles_render frame_map_old frame_map_new fps fps_base
+        use_motion_blur motion_blur_shutter motion_blur_shutter_curve motion_blur_position
         """,
-        left_out=(LeftOut("use_motion_blur", False, "the picture is sharp"),),
         # Files, stamps, bakes, the compositor, the sequencer, Freestyle, the viewport and EEVEE.
         no_meaning="""
-        image_settings preview_pixel_size ffmpeg dither_intensity use_freestyle motion_blur_shutter
-        motion_blur_shutter_curve hair_type hair_subdiv use_high_quality_normals use_placeholder use_overwrite
+        image_settings preview_pixel_size ffmpeg dither_intensity use_freestyle
+        hair_type hair_subdiv use_high_quality_normals use_placeholder use_overwrite
         use_compositing use_sequencer use_file_extension file_extension is_movie_format use_lock_interface filepath
         use_render_cache bake_type use_bake_selected_to_active use_bake_clear bake_margin bake_margin_type bake_bias
         use_bake_multires use_bake_lores_mesh bake_samples use_bake_user_scale bake_user_scale use_stamp_time
@@ -70,7 +74,7 @@ SCENE = {
         has_multiple_engines use_spherical_stereo simplify_subdivision simplify_child_particles simplify_volumes
         simplify_gpencil simplify_gpencil_onplay simplify_gpencil_antialiasing simplify_gpencil_view_fill
         simplify_gpencil_modifier simplify_gpencil_shader_fx simplify_gpencil_tint line_thickness_mode line_thickness
-        bake motion_blur_position use_simplify_normals compositor_device compositor_precision ppm_factor ppm_base
+        bake use_simplify_normals compositor_device compositor_precision ppm_factor ppm_base
         compositor_denoise_device compositor_denoise_preview_quality compositor_denoise_final_quality
         use_new_cpu_compositor@4.3 anisotropic_filter@5.2 save_output@5.2 use_texture_cache@5.2
         use_auto_generate_texture_cache@5.2 use_compositor_frames_cache@5.3
@@ -94,12 +98,13 @@ SCENE = {
             _bounce_limit("diffuse_bounces", 4, what="Cycles' limit of Diffuse Bounces is"),
             _bounce_limit("glossy_bounces", 4, what="Cycles' limit of Glossy Bounces is"),
             _bounce_limit("transmission_bounces", 12, what="Cycles' limit of Transmission Bounces is"),
+            LeftOut("rolling_shutter_type", "NONE", "all is seen at once", "a rolling shutter is", _is_blurred),
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),
-        used="transparent_max_bounces",
-        # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; what motion blur takes,
-        # which is reported; bakes and debugging.
+        used="transparent_max_bounces motion_blur_position",
+        # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; bakes and
+        # debugging.
         no_meaning="""
         name device feature_set shading_system preview_pause use_denoising denoiser denoising_prefilter
         denoising_input_passes use_preview_denoising preview_denoiser preview_denoising_prefilter
@@ -114,7 +119,7 @@ SCENE = {
         volume_max_steps dicing_rate preview_dicing_rate max_subdivisions dicing_camera offscreen_dicing_scale
         film_transparent_roughness seed use_animated_seed debug_bvh_type debug_use_spatial_splits debug_use_hair_bvh
         debug_use_compact_bvh debug_bvh_time_steps bake_type camera_cull_margin distance_cull_margin
-        motion_blur_position rolling_shutter_type rolling_shutter_duration texture_limit texture_limit_render
+        rolling_shutter_duration texture_limit texture_limit_render
         fast_gi_method ao_bounces ao_bounces_render use_auto_tile tile_size debug_use_cpu_avx2 debug_use_cpu_avx
         debug_use_cpu_sse41 debug_use_cpu_sse3 debug_use_cpu_sse2 debug_bvh_layout debug_use_cuda_adaptive_compile
         debug_use_optix_debug denoising_quality denoising_use_gpu preview_denoising_quality preview_denoising_use_gpu
@@ -125,15 +130,16 @@ SCENE = {
         preview_denoising_upscale_quality@5.3
         """,
     ),
-    "CyclesCurveRenderSettings": Table(no_meaning="name shape subdivisions"),
+    "CyclesCurveRenderSettings": Table(used="shape subdivisions", no_meaning="name"),
     "ViewLayer": Table(
         used="""
         name material_override world_override samples use use_solid use_sky layer_collection objects depsgraph
-        use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color use_pass_emit
+        use_strand use_volumes use_pass_combined use_pass_z use_pass_normal use_pass_position use_pass_diffuse_color
+        use_pass_emit
         use_pass_diffuse_direct use_pass_diffuse_indirect use_pass_glossy_direct use_pass_glossy_indirect
         use_pass_glossy_color use_pass_transmission_direct use_pass_transmission_indirect use_pass_transmission_color
         use_pass_cryptomatte_object use_pass_cryptomatte_material use_pass_cryptomatte_asset pass_cryptomatte_depth
-        use_pass_environment use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index
+        use_pass_environment use_pass_uv use_pass_mist use_pass_object_index use_pass_material_index use_motion_blur
         """,
         parts="cycles",
         left_out=(
@@ -144,10 +150,9 @@ SCENE = {
             LeftOut("aovs", is_empty, "the picture lacks them", what="shader AOVs are"),
             LeftOut("lightgroups", is_empty, "the picture lacks their passes", what="light groups are"),
         ),
-        # Hair and motion blur are reported where they are.
         no_meaning="""
         pass_alpha_threshold eevee active_aov active_aov_index active_lightgroup active_lightgroup_index
-        use_pass_cryptomatte_accurate use_ao use_strand use_motion_blur
+        use_pass_cryptomatte_accurate use_ao
         active_layer_collection use_freestyle freestyle_settings has_export_collections use_grease_pencil
         use_pass_grease_pencil
         """,

@@ -13,6 +13,7 @@ _OBJECT_INFO = {
     "Object Index": "object_index",
     "Random": "object_random",
 }
+_HAIR_INFO = {"Is Strand": "is_strand", "Thickness": "strand_thickness", "Tangent Normal": "strand_tangent_normal"}
 _KINDS = {"OBJECT": "object", "INSTANCER": "instancer", "VIEW_LAYER": "layer"}
 
 
@@ -47,6 +48,12 @@ def _particle_info(node: Node) -> Value:
     return zero if node.output in {"Age", "Lifetime", "Size"} else zero.widened()
 
 
+def _hair_info(node: Node) -> Value:
+    if node.output in _HAIR_INFO:
+        return node.op(_HAIR_INFO[node.output])
+    return mesh_attribute(node, f"strand:{node.output.lower()}")[0]
+
+
 def _volume_info(node: Node) -> Value:
     value = mesh_attribute(node, f"attribute:{node.output.lower()}")
     return value[:3] if node.output == "Color" else value[4]
@@ -58,4 +65,5 @@ ROWS: dict[str, Row] = {
     "OBJECT_INFO": _object_info,
     "PARTICLE_INFO": _particle_info,
     "VOLUME_INFO": _volume_info,
+    "HAIR_INFO": _hair_info,
 }

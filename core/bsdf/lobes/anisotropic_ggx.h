@@ -199,8 +199,11 @@ struct OwnAxesLobe {
                 .glossy_probability = select(max_component(albedo_seen) > T(0), T(1), T(0))};
     }
     T highlight_probability() const { return T(1); }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        highlights.add({facets.frame(), facets.alpha_x, facets.alpha_y, mean_component(albedo_seen)});
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
+        HighlightOf<T> own = highlight_about_normal(facets.alpha_x, curve.as_of_base());
+        own.frame = facets.frame();
+        own.alpha_y = facets.alpha_y;
+        highlights.add(own, where);
     }
     OwnAxesLobe blurred(T least_alpha) const {
         OwnAxesLobe result = *this;

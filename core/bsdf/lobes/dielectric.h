@@ -138,10 +138,10 @@ struct Dielectric {
                 .glossy_probability = select(max_component(reflection) > T(0), T(1), T(0))};
     }
     T highlight_probability() const { return T(1); }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        highlights.add({frame_from_z(Vec3f(0.0f, 0.0f, 1.0f)), alpha, alpha, mean_component(reflected)});
-        highlights.beside += mean_component(refracted);
-        if (max_component(refracted) > 0.0f) highlights.are_close = false;
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>& wo_local, const Mask<T>& where) const {
+        highlights.add(highlight_about_normal(alpha, closed_form(wo_local).fresnel), where);
+        highlights.add_beside(mean_component(refracted), where);
+        highlights.are_close = highlights.are_close && !(where && max_component(refracted) > T(0));
     }
     Dielectric blurred(T least_alpha) const {
         Dielectric result = *this;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "core/bsdf/fresnel.h"
-#include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
 
 namespace pivot {
@@ -59,9 +58,6 @@ struct DisneyDiffuse {
     Vec3<T> diffuse() const { return color; }
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = albedo(wo_local)}, wo_local);
-    }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        highlights.beside += mean_component(color) + mean_component(sheen);
     }
     DisneyDiffuse blurred(T) const { return *this; }
 };

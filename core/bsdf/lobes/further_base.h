@@ -34,11 +34,9 @@ struct FurtherBase {
     Vec3<T> diffuse() const { return base.diffuse; }
     BaseOf<T> closed_form(const Vec3<T>&) const { return base; }
     T highlight_probability() const { return base.glossy_probability; }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        const Vec3f z(0.0f, 0.0f, 1.0f);
-        highlights.beside += mean_component(base.diffuse);
-        if (base.has_glossy())
-            highlights.add({frame_from_z(z), base.alpha, base.alpha, mean_component(glossy_albedo(base))});
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
+        highlights.add_beside(mean_component(base.diffuse), where);
+        highlights.add(highlight_about_normal(base.alpha, base.fresnel), where);
     }
     FurtherBase blurred(T least_alpha) const { return {pivot::blurred(base, least_alpha)}; }
 };

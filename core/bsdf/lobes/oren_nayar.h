@@ -7,7 +7,6 @@
 // does.
 #pragma once
 
-#include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
 
 namespace pivot {
@@ -60,9 +59,6 @@ struct OrenNayar {
     Vec3<T> diffuse() const { return weight; }
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = albedo(wo_local)}, wo_local);
-    }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        highlights.beside += mean_component(weight);
     }
     OrenNayar blurred(T) const { return *this; }
 

@@ -52,10 +52,9 @@ struct Sheen {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = reflected}, wo_local);
     }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
         constexpr float least_a = 0.3f;  // the lobe is up to 1 / a^2 times Lambert's
-        highlights.beside += mean_component(reflected);
-        if (ltc.a < least_a) highlights.are_close = false;
+        highlights.are_close = highlights.are_close && !(where && ltc.a < T(least_a));
     }
     Sheen blurred(T) const { return *this; }
 

@@ -81,9 +81,6 @@ struct Subsurface {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = albedo(wo_local)}, wo_local);
     }
-    void add_highlights(auto& highlights) const requires std::same_as<T, float> {
-        highlights.beside += mean_component(inside.color - enters);
-    }
     Subsurface blurred(T) const { return *this; }
 };
 

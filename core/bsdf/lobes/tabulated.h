@@ -88,16 +88,18 @@ struct Tabulated {
     /// A picture stays as sharp as it is.
     Tabulated blurred(T) const { return *this; }
 
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, bool) const requires std::same_as<T, float> {
         const auto* table = ndf.template pointer<TabulatedNdf>();
         highlights.beside += mean_component(diffuse_color);
         if (!table || !(glossy_probability > 0.0f)) return;
         constexpr float most_over_fit = 5.0f;
-        const float reflectance = mean_component(glossy_albedo);
-        highlights.beside += reflectance * table->fit().error;
+        const HighlightOf<float> all = highlight_about_normal(table->alpha(), fresnel);
+        highlights.beside += mean_component(glossy_albedo) * table->fit().error;
         highlights.are_close = highlights.are_close && table->fit().worst < most_over_fit;
         for (const OwnAxes& lobe : table->fit_axes())
-            highlights.add({lobe.frame, lobe.alpha_x, lobe.alpha_y, reflectance * lobe.weight});
+            highlights.add(
+                {lobe.frame, lobe.alpha_x, lobe.alpha_y, all.fresnel_f0 * lobe.weight, all.fresnel_f90 * lobe.weight},
+                true);
     }
 
    private:

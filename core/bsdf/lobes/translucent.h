@@ -33,8 +33,8 @@ struct Translucent {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = color}, wo_local);
     }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
-        highlights.beside += mean_component(color);
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
+        highlights.add_beside(mean_component(color), where);
     }
     Translucent blurred(T) const { return *this; }
 };

@@ -58,10 +58,9 @@ struct Velvet {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = color * reflectance}, wo_local);
     }
-    void add_highlights(Highlights& highlights) const requires std::same_as<T, float> {
+    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
         constexpr float most = 10.0f;  // sigma of 0.3, where fibres lie closely across the surface
-        highlights.beside += mean_component(color) * reflectance;
-        if (inverse_sigma2 > most || is_grazing > 0.0f) highlights.are_close = false;
+        highlights.are_close = highlights.are_close && !(where && (inverse_sigma2 > T(most) || is_grazing > T(0)));
     }
     Velvet blurred(T) const { return *this; }
 };

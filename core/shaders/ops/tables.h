@@ -25,5 +25,6 @@ std::span<const OpKind> ray_ops();
 std::span<const OpKind> normal_ops();
 std::span<const OpKind> image_ops();
 std::span<const OpKind> layer_ops();
+std::span<const OpKind> strand_ops();
 
 }  // namespace pivot

@@ -23,6 +23,7 @@ KINDS = (
     "Material",
     "MaterialSlot",
     "Volume",
+    "Curves",
     "Scene",
     "ViewLayer",
     "LayerCollection",
@@ -31,7 +32,7 @@ OTHER_NODES = {
     *("OUTPUT_MATERIAL", "OUTPUT_WORLD", "OUTPUT_LIGHT"),
     *("RGB", "VALUE", "TEX_IMAGE", "TEX_ENVIRONMENT"),
 }
-CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX", "CUBIC")  # of them one at least changes the picture
+CANDIDATES = (True, False, 0, 1, 3, 100, 0.5, "BOX", "CUBIC", "TOP")  # of them one at least changes the picture
 
 
 def main(folder: Path) -> Any:
@@ -127,7 +128,8 @@ def _things() -> dict[str, Any]:
     parts.clear()
     scene = bpy.context.scene
     scene.render.engine = "PIVOT"
-    scene.render.film_transparent = scene.render.use_simplify = True  # what some properties only then are for
+    # What some properties only then are for.
+    scene.render.film_transparent = scene.render.use_simplify = scene.render.use_motion_blur = True
     things = {kind: parts.light(kind, kind).data for kind in ("POINT", "SPOT", "SUN", "AREA")}
     quad = parts.quad("quad", material=parts.shaded("material", "ShaderNodeBsdfDiffuse")[0])
     collection = bpy.data.collections.new("collection")
@@ -207,11 +209,6 @@ def _of_collection(census: Any, struct: Any, name: str) -> list[str]:
         census.report_left_out(struct, "owner", said)
         (bpy.ops.scene.view_layer_remove_aov if name == "aovs" else bpy.ops.scene.view_layer_remove_lightgroup)()
         del made
-    if name == "particle_systems" and struct.type == "MESH":
-        modifier = struct.modifiers.new("hair", "PARTICLE_SYSTEM")
-        struct.particle_systems[0].settings.type = "HAIR"
-        census.report_left_out(struct, "owner", said)
-        struct.modifiers.remove(modifier)
     if name == "modifiers" and struct.type == "MESH":
         modifier = struct.modifiers.new("subdivision", "SUBSURF")
         if hasattr(modifier, "use_adaptive_subdivision"):  # from Blender 5.0

@@ -126,7 +126,7 @@ def _missing_core(folder: Path) -> Any:
 
 def _strict(folder: Path, has_warning: bool) -> Any:
     scene()
-    bpy.context.scene.render.use_motion_blur = has_warning
+    bpy.context.scene.cycles.sample_clamp_direct = 1.0 if has_warning else 0.0
     with patch.object(sys.modules["pivot.engine"].PivotRenderEngine, "strict", True):
         return render(folder / f"strict_{has_warning}.png")
 

@@ -82,12 +82,9 @@ def _reports() -> Any:
     fill = parts.light("fill", "POINT")
     if bpy.app.version >= (4, 0):
         fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
-    bpy.context.scene.render.use_motion_blur = True
+    bpy.context.scene.cycles.sample_clamp_direct = 1.0
     catcher = parts.quad("catcher")
     catcher.is_shadow_catcher = True
-    hair = parts.quad("hair")
-    hair.modifiers.new("hair", "PARTICLE_SYSTEM")
-    hair.particle_systems[0].settings.type = "HAIR"
     world = parts.world((1, 1, 1))
     world.cycles_visibility.diffuse = False
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")

@@ -136,6 +136,8 @@ class Recording:
     cameras: list[SimpleNamespace] = field(default_factory=list)
     settings: RenderSettings | None = None
     reports: list[str] = field(default_factory=list)
+    motions: dict[int, Any] = field(default_factory=dict)  # of instances
+    mesh_motions: dict[int, SimpleNamespace] = field(default_factory=dict)
 
     @property
     def camera(self) -> SimpleNamespace:
@@ -232,6 +234,14 @@ class Scene:
     def set_world_shader(self, shader: Shader) -> None:
         self.recording.world = shader
 
+    def set_instance_motion(self, id: int, object_to_world: Any) -> None:
+        self.recording.motions[id] = np.array(object_to_world)
+
+    def set_mesh_motion(self, id: int, positions: Any, corner_normals: Any = None, vertex_normals: Any = None) -> None:
+        self.recording.mesh_motions[id] = SimpleNamespace(
+            positions=np.array(positions), corner_normals=corner_normals, vertex_normals=vertex_normals
+        )
+
     def set_world_medium(self, medium: Medium | None) -> None:
         self.recording.world_medium = medium
 
@@ -246,6 +256,8 @@ class Scene:
         clip_end_m: float,
         projection: Any,
         lens: Any,
+        motion: Any = None,
+        shutter: Any = None,
     ) -> None:
         camera = dict(locals())
         del camera["self"]

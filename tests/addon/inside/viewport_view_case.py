@@ -6,6 +6,7 @@ Before a blue world stand a red and a green lamp. Blender tells where in the 3D 
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -16,6 +17,7 @@ import bpy
 
 # isort: split
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Vector
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import parts
@@ -24,6 +26,7 @@ import window
 STEP_S = 6.0
 NAMES = ("red", "green", "blue")
 RED, GREEN = (-0.5, 0, 0), (0.7, 0.3, 0)
+WIDE = 0.6  # half the angle that a panorama sees
 EDGE_PX = 8  # between a place that must be of a lamp, and one that must not, are twice as many
 
 
@@ -56,6 +59,16 @@ def lamp_places() -> list[tuple[float, float]]:
     return [place(RED), place(GREEN), (edge[0] + EDGE_PX, edge[1]), (edge[0] - EDGE_PX, edge[1])]
 
 
+def on_sphere(camera: Any, point: tuple[float, float, float]) -> tuple[float, float]:
+    """In pixels of the 3D view, where a camera that sees WIDE angles to all sides sees a point."""
+    right, up, depth = (camera.matrix_world.inverted() @ Vector(point)) * Vector((1, 1, -1))
+    angles = math.atan2(right, depth), math.atan2(up, math.hypot(right, depth))
+    corners = [place(camera.matrix_world @ corner) for corner in camera.data.view_frame(scene=bpy.context.scene)]
+    (x1, y1), (x0, y0) = corners[0], corners[2]
+    u, v = (0.5 + angle / (2 * WIDE) for angle in angles)
+    return x0 + (u - camera.data.shift_x) * (x1 - x0), y0 + v * (y1 - y0)
+
+
 ALL = ["red", "green", "red", "blue"]
 
 
@@ -80,7 +93,15 @@ def steps() -> Iterator[Callable[[], bool]]:
             stretched.append((right - left) / (top - bottom) / (width / height))
         draw_picture(engine, scene, shown, view)
 
+    held = [0]  # so often the viewport finds no new picture, and draws the one before
+    take_picture = viewport.Viewport._take_picture
+
+    def held_take(self: Any, wait_s: float) -> Any:
+        held[0] -= 1
+        return held[0] < 0 and take_picture(self, wait_s)
+
     viewport.Viewport._start, viewport.draw_picture = watched_start, watched_draw
+    viewport.Viewport._take_picture = held_take
     result: dict[str, Any] = {}
 
     def seen(
@@ -146,6 +167,12 @@ def steps() -> Iterator[Callable[[], bool]]:
         lambda: [(place(middle)[0] - EDGE_PX, place(middle)[1]), (place(middle)[0] + EDGE_PX, place(middle)[1])],
     )
     scene.render.use_border = False
+    panorama = sys.modules["pivot.export.optics"].panorama_settings(camera.data)  # type: ignore[attr-defined]
+    camera.data.type, panorama.panorama_type = "PANO", "EQUIRECTANGULAR"
+    panorama.longitude_min, panorama.longitude_max = -WIDE, WIDE
+    panorama.latitude_min, panorama.latitude_max = -WIDE, WIDE
+    yield seen("panorama", ["red", "green"], lambda: [on_sphere(camera, RED), on_sphere(camera, GREEN)])
+    camera.data.type = "PERSP"
     region_3d.view_perspective = "ORTHO"
     yield seen("orthographic", ALL)
     region_3d.view_perspective = "PERSP"
@@ -172,6 +199,7 @@ def steps() -> Iterator[Callable[[], bool]]:
     lamps["green"].hide_viewport = False
     for region_3d.view_perspective in ("PERSP", "ORTHO"):
         yield seen("before a resize", ALL)
+        held[0] = 5
         with window.in_view():
             bpy.ops.screen.area_split(direction="VERTICAL", factor=0.7)
         yield seen("resized", ["blue"], lambda: [share(0.5, 0.1)])

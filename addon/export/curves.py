@@ -1,0 +1,120 @@
+"""Curves with a thickness as arrays, and those of Curves objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .attributes import VALUES
+from .islands import random_of_numbers
+
+Array = NDArray[np.float32]
+DEFAULT_RADIUS_M = 0.005  # of a Curves object without radii, as Cycles has it
+_SHAPES = {"RIBBONS": "RIBBON", "THICK": "ROUND"}
+
+
+@dataclass(frozen=True)
+class CurveArrays:
+    """P points of C curves; arguments of pivot_core.Scene.add_curves."""
+
+    positions: Array  # (P, 3)
+    radii_m: Array  # (P,)
+    offsets: NDArray[np.int32]  # (C + 1,), where each starts, and P
+    point_attributes: dict[str, Array] = field(default_factory=dict)  # (P, 1..4)
+
+    def add_of_curves(self, name: str, values: Array) -> None:
+        """An attribute of (C, 1..4) values."""
+        self.point_attributes[name] = np.repeat(values.reshape(len(self.offsets) - 1, -1), np.diff(self.offsets), 0)
+
+
+def curve_settings(scene: bpy.types.Scene) -> dict[str, Any]:
+    """How rays meet all curves of a scene, by Cycles' settings where it is there. [Cycles 4.5 bvh/embree.cpp]"""
+    settings = getattr(scene, "cycles_curves", None)
+    if settings is None:
+        return {}
+    subdivisions = min(max(1 << settings.subdivisions, 1), 16)  # of which Embree's tessellation has one more
+    return {"shape": _SHAPES.get(settings.shape, "ROUND"), "subdivisions": subdivisions + 1}
+
+
+def curve_arrays(curves: bpy.types.Curves, names: frozenset[str]) -> CurveArrays:
+    """Of a Curves object's evaluated data; names: of the attributes that its materials ask for."""
+    points, radius = len(curves.points), curves.attributes.get("radius")
+    positions, offsets = np.empty((points, 3), np.float32), np.zeros(len(curves.curves) + 1, np.int32)
+    radii = np.full(points, DEFAULT_RADIUS_M, np.float32)
+    curves.position_data.foreach_get("vector", positions.ravel())
+    if len(curves.curves):
+        curves.curve_offset_data.foreach_get("value", offsets)
+    if radius is not None and radius.domain == "POINT" and radius.data_type == "FLOAT":
+        radius.data.foreach_get("value", radii)
+    arrays = CurveArrays(positions, np.maximum(radii, 0), offsets)
+    add_strand_attributes(arrays, names)
+    for name in names:
+        kind, _, inner = name.partition(":")
+        attribute = None
+        if kind == "uv" and not inner:  # as Cycles has it: the first of two numbers that each curve has
+            attribute = next((a for a in curves.attributes if (a.data_type, a.domain) == ("FLOAT2", "CURVE")), None)
+        elif kind in {"uv", "attribute"}:
+            attribute = curves.attributes.get(inner)
+        if attribute is not None and attribute.data_type in VALUES:
+            _add_attribute(arrays, attribute, name)
+    return arrays
+
+
+def _add_attribute(arrays: CurveArrays, attribute: Any, name: str) -> None:
+    key, width = VALUES[attribute.data_type]
+    dtype = np.float32
+    if width == 1 and attribute.data_type != "FLOAT":
+        dtype = np.bool_ if attribute.data_type == "BOOLEAN" else np.int32
+    raw = np.empty(len(attribute.data) * width, dtype)
+    attribute.data.foreach_get(key, raw)
+    values = raw.reshape(-1, width).astype(np.float32)
+    if attribute.domain == "POINT":
+        arrays.point_attributes[name] = values
+    else:
+        arrays.add_of_curves(name, values)
+
+
+def add_strand_attributes(arrays: CurveArrays, names: frozenset[str]) -> None:
+    """What Blender's Curves Info tells of each curve and of the way along it."""
+    for name in names:
+        kind, _, inner = name.partition(":")
+        if kind == "strand":
+            _STRAND[inner](arrays, name)
+
+
+def ways_along(arrays: CurveArrays) -> tuple[Array, Array]:
+    """How far each point lies along its curve (P,), and how long each curve is (C,), m."""
+    steps = np.zeros(len(arrays.positions), np.float64)
+    steps[1:] = np.linalg.norm(np.diff(arrays.positions, axis=0), axis=1)
+    starts, ends = arrays.offsets[:-1], arrays.offsets[1:]
+    has_points = ends > starts
+    steps[starts[has_points]] = 0
+    whole = np.concatenate([[0.0], np.cumsum(steps)])
+    along = whole[1:] - np.repeat(whole[starts], ends - starts)
+    return along.astype(np.float32), (whole[ends] - whole[starts]).astype(np.float32)
+
+
+def _intercept(arrays: CurveArrays, name: str) -> None:
+    along, lengths = ways_along(arrays)
+    of_points = np.repeat(lengths, np.diff(arrays.offsets))
+    arrays.point_attributes[name] = (along / np.where(of_points > 0, of_points, 1))[:, None]
+
+
+def _length(arrays: CurveArrays, name: str) -> None:
+    arrays.add_of_curves(name, ways_along(arrays)[1])
+
+
+def _random(arrays: CurveArrays, name: str) -> None:
+    arrays.add_of_curves(name, random_of_numbers(np.arange(len(arrays.offsets) - 1, dtype=np.uint32), words=2))
+
+
+_STRAND: dict[str, Callable[[CurveArrays, str], None]] = {
+    "intercept": _intercept,
+    "length": _length,
+    "random": _random,
+}

@@ -1,0 +1,114 @@
+"""Hair particle systems as curves: the strands that their children and settings make, as Cycles has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .curves import CurveArrays, add_strand_attributes, ways_along
+
+Array = NDArray[np.float32]
+
+
+def strand_modifiers(blender_object: bpy.types.Object, is_render: bool) -> list[Any]:
+    """The modifiers of an evaluated object whose particle systems show strands. None in Edit and Particle Edit Mode."""
+    if blender_object.type != "MESH" or blender_object.mode in {"EDIT", "PARTICLE_EDIT"}:
+        return []
+    return [
+        modifier
+        for modifier in blender_object.modifiers
+        if modifier.type == "PARTICLE_SYSTEM"
+        and (modifier.show_render if is_render else modifier.show_viewport)
+        and modifier.particle_system.settings.type == "HAIR"
+        and modifier.particle_system.settings.render_type == "PATH"
+    ]
+
+
+def strand_arrays(
+    blender_object: bpy.types.Object, modifier: Any, names: frozenset[str], is_render: bool
+) -> CurveArrays | None:
+    """The strands of one of its systems, object space; None where there are none.
+
+    names: of the attributes that its material asks for. [Cycles 4.5 blender/curves.cpp, from which the thickness is]
+    """
+    system = modifier.particle_system
+    settings, parents, children = system.settings, len(system.particles), len(system.child_particles)
+    if not is_render:
+        children = int(children * settings.display_percentage / 100)
+    first = parents if settings.child_type != "NONE" and children else 0
+    count = parents + children - first
+    if count == 0:
+        return None
+    steps = (1 << (settings.render_step if is_render else settings.display_step)) + 1
+    if settings.kink == "SPIRAL":
+        steps += settings.kink_extra_steps
+    positions = _positions(system, blender_object, first, count, steps)
+    offsets = np.arange(count + 1, dtype=np.int32) * np.int32(steps)
+    arrays = CurveArrays(positions, np.empty(len(positions), np.float32), offsets)
+    arrays.radii_m[:] = _radii(settings, arrays, steps)
+    add_strand_attributes(arrays, names)
+    _add_emitter_attributes(blender_object, modifier, range(first, first + count), arrays, names)
+    return arrays
+
+
+def _positions(system: Any, blender_object: bpy.types.Object, first: int, count: int, steps: int) -> Array:
+    """(count * steps, 3). Blender tells one point a call, in world space: most of the time an export takes."""
+
+    def coordinates() -> Iterator[float]:
+        of_hair = system.co_hair
+        for strand in range(first, first + count):
+            for step in range(steps):
+                yield from of_hair(object=blender_object, particle_no=strand, step=step)
+
+    world = np.fromiter(coordinates(), np.float32, 3 * count * steps).reshape(-1, 3)
+    to_object = np.array(blender_object.matrix_world.inverted_safe(), np.float64)
+    return (world @ to_object[:3, :3].T + to_object[:3, 3]).astype(np.float32)
+
+
+def _radii(settings: Any, arrays: CurveArrays, steps: int) -> Array:
+    along, lengths = ways_along(arrays)
+    left = 1 - (along.reshape(-1, steps) / np.where(lengths > 0, lengths, 1)[:, None]).clip(0, 1)
+    if settings.shape < 0:
+        left = left ** (1 + settings.shape)
+    elif settings.shape > 0:
+        left = left ** (1 / max(1 - settings.shape, 1e-6))
+    root, tip = (0.5 * settings.radius_scale * each for each in (settings.root_radius, settings.tip_radius))
+    radii = left * (root - tip) + tip
+    if settings.use_close_tip:
+        radii[:, -1] = 0
+    return radii.ravel().astype(np.float32)
+
+
+def _add_emitter_attributes(
+    blender_object: bpy.types.Object, modifier: Any, strands: range, arrays: CurveArrays, names: frozenset[str]
+) -> None:
+    """What strands have of the place on the mesh that they grow from."""
+    mesh, system = blender_object.data, modifier.particle_system
+    for name in names:
+        kind, _, inner = name.partition(":")
+        layers = mesh.uv_layers.keys()
+        if kind == "generated":
+            half = 2 * np.array(mesh.texspace_size, np.float32)
+            half[half == 0] = 1
+            roots = arrays.positions[arrays.offsets[:-1]]
+            arrays.add_of_curves(name, (roots - np.array(mesh.texspace_location, np.float32)) / half + np.float32(0.5))
+        elif kind == "uv" or (kind == "attribute" and inner in layers):
+            chosen = inner if inner else next((layer.name for layer in mesh.uv_layers if layer.active_render), None)
+            if chosen in layers:
+                number = layers.index(chosen)
+                uv = [
+                    system.uv_on_emitter(modifier, particle=particle, particle_no=strand, uv_no=number)
+                    for strand, particle in zip(strands, _emitted_by(system, strands), strict=True)
+                ]
+                arrays.add_of_curves(name, np.array(uv, np.float32).reshape(-1, 2))
+
+
+def _emitted_by(system: Any, strands: range) -> Iterator[Any]:
+    """The particle to name with each strand: its own, or of children any."""
+    parents = system.particles
+    for strand in strands:
+        yield parents[strand if strand < len(parents) else 0]

@@ -1,0 +1,52 @@
+// Curves as Embree's geometry.
+#include "core/geometry/curves.h"
+#include "core/scene/embree.h"
+
+namespace pivot {
+namespace {
+
+/// Of a round tube, whose hits come with a normal: drops what is met from within, and tells where across the ray the
+/// others are, as ribbons' hits do.
+void keep_fronts(const RTCFilterFunctionNArguments* arguments) {
+    const auto* curves = static_cast<const Curves*>(arguments->geometryUserPtr);
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        const Vec3f direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
+                              RTCRayN_dir_z(arguments->ray, n, i));
+        const Vec3f normal(RTCHitN_Ng_x(arguments->hit, n, i), RTCHitN_Ng_y(arguments->hit, n, i),
+                           RTCHitN_Ng_z(arguments->hit, n, i));
+        if (dot(normal, direction) >= 0.0f) {
+            arguments->valid[i] = 0;
+            continue;
+        }
+        const Vec3f along(
+            curve_derivative(*curves, RTCHitN_primID(arguments->hit, n, i), RTCHitN_u(arguments->hit, n, i)));
+        const Vec3f across = cross(direction, along);
+        const Vec3f around = normal - dot(normal, along) / std::max(length_squared(along), 1e-30f) * along;
+        const float scale2 = length_squared(across) * length_squared(around);
+        RTCHitN_v(arguments->hit, n, i) = scale2 > 0.0f ? dot(across, around) / std::sqrt(scale2) : 0.0f;
+    }
+}
+
+}  // namespace
+
+Owned<RTCGeometry> EmbreeDevice::make_curves(const Curves& curves) const {
+    const bool is_round = curves.shape == CurveShape::round;
+    Owned<RTCGeometry> geometry(rtcNewGeometry(
+        handle.get(), is_round ? RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE : RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE));
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.keys.data(), 0,
+                               sizeof(CurvePoint), curves.keys.size());
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
+                               sizeof(std::uint32_t), curves.segments.size());
+    if (is_round) {
+        rtcSetGeometryUserData(geometry.get(), const_cast<Curves*>(&curves));
+        rtcSetGeometryIntersectFilterFunction(geometry.get(), keep_fronts);
+        rtcSetGeometryOccludedFilterFunction(geometry.get(), keep_fronts);
+    } else {
+        rtcSetGeometryTessellationRate(geometry.get(), static_cast<float>(curves.subdivisions));
+    }
+    return geometry;
+}
+
+}  // namespace pivot

@@ -1,0 +1,138 @@
+"""A furry ball in several materials and lights, rendered by Cycles and by Pivot; as files in the folder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import cycles_cases
+import parts
+
+SIZE = 64
+SAMPLES = {"CYCLES": 256, "PIVOT": 128}
+BROWN = (0.6, 0.3, 0.15, 1)
+
+
+def main(folder: Path) -> Any:
+    """Returns the names of the pictures."""
+    for name, make in CASES.items():
+        scene(make)
+        render(folder, name)
+    return list(CASES)
+
+
+def render(folder: Path, name: str, bounces: int = 4) -> None:
+    cycles_cases._cycles(folder / f"{name}_CYCLES.exr", bounces, SAMPLES["CYCLES"])
+    cycles_cases._pivot(folder / f"{name}_PIVOT.exr", bounces, "JOINT", SAMPLES["PIVOT"])
+
+
+def scene(make: Callable[[], Any]) -> None:
+    """make: its material, and what is beside the ball."""
+    parts.clear()
+    parts.size(SIZE, SIZE)
+    parts.camera((0, -6, 0), (math.pi / 2, 0, 0)).data.lens = 62
+    bpy.context.scene.cycles_curves.shape = "RIBBONS"
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    ball = bpy.context.object
+    make()
+    ball.data.materials.append(bpy.data.materials["fur"])
+    fur(ball)
+
+
+def fur(ball: Any) -> None:
+    """Bent strands, each with some children."""
+    ball.modifiers.new("fur", "PARTICLE_SYSTEM")
+    settings = ball.particle_systems[0].settings
+    settings.type = "HAIR"
+    settings.count, settings.hair_length = 300, 0.8
+    settings.brownian_factor = 0.1
+    settings.render_step = 3
+    settings.child_type = "INTERPOLATED"
+    settings.rendered_child_count = 4
+    settings.root_radius, settings.tip_radius, settings.radius_scale = 2.0, 0.5, 0.02
+
+
+def _sun() -> None:
+    parts.light("sun", "SUN", energy=3, angle=0.1).rotation_euler = (math.radians(50), 0.3, 0.4)
+
+
+def _diffuse_in_sun() -> None:
+    parts.shaded("fur", "ShaderNodeBsdfDiffuse", Color=BROWN)
+    _sun()
+
+
+def _diffuse_in_sky() -> None:
+    parts.shaded("fur", "ShaderNodeBsdfDiffuse", Color=BROWN)
+    parts.world((0.5, 0.7, 0.9))
+
+
+def _glossy() -> None:
+    _, node = parts.shaded("fur", "ShaderNodeBsdfGlossy", Color=BROWN, Roughness=0.4)
+    node.distribution = "GGX"
+    _sun()
+
+
+def _hair_of_color() -> None:
+    _hair("COLOR", {"Color": (0.5, 0.2, 0.08, 1)})
+    parts.world((0.2, 0.2, 0.3))
+
+
+def _hair_of_melanin() -> None:
+    inputs = {"Melanin": 0.5, "Melanin Redness": 0.6, "Random Color": 0.8, "Random Roughness": 0.5, "Coat": 0.4}
+    _hair("MELANIN", inputs)
+
+
+def _hair(parametrization: str, inputs: dict[str, Any]) -> None:
+    _, node = parts.shaded("fur", "ShaderNodeBsdfHairPrincipled")
+    if hasattr(node, "model"):  # from Blender 4.0
+        node.model = "CHIANG"
+    node.parametrization = parametrization
+    for socket in node.inputs:
+        if socket.identifier in inputs:
+            socket.default_value = inputs[socket.identifier]
+    _sun()
+
+
+def _curves() -> None:
+    """A Curves object beside the fur, with radii of its points; and one without."""
+    _diffuse_in_sun()
+    bpy.ops.object.curves_random_add()
+    curves = bpy.context.object
+    curves.data.materials.append(parts.shaded("red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))[0])
+    curves.scale = (0.9, 0.9, 0.6)
+    bpy.context.view_layer.objects.active = bpy.data.objects["Sphere"]
+
+
+def _round() -> None:
+    _diffuse_in_sun()
+    bpy.context.scene.cycles_curves.shape = "THICK"
+
+
+def _told() -> None:
+    """What Hair Info tells, as colours that shine."""
+    material, node = parts.shaded("fur", "ShaderNodeEmission")
+    tree = material.node_tree
+    info, joined = tree.nodes.new("ShaderNodeHairInfo"), tree.nodes.new("ShaderNodeCombineXYZ")
+    thickness = tree.nodes.new("ShaderNodeMath")
+    thickness.operation = "MULTIPLY"
+    thickness.inputs[1].default_value = 30
+    tree.links.new(info.outputs["Thickness"], thickness.inputs[0])
+    for source, target in (("Intercept", "X"), ("Random", "Y")):
+        tree.links.new(info.outputs[source], joined.inputs[target])
+    tree.links.new(thickness.outputs[0], joined.inputs["Z"])
+    tree.links.new(joined.outputs[0], node.inputs["Color"])
+
+
+CASES = {
+    "diffuse_in_sun": _diffuse_in_sun,
+    "diffuse_in_sky": _diffuse_in_sky,
+    "glossy": _glossy,
+    "round": _round,
+    "hair_of_color": _hair_of_color,
+    "hair_of_melanin": _hair_of_melanin,
+    "told": _told,
+    "curves": _curves,
+}
