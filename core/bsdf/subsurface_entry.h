@@ -29,14 +29,15 @@ inline bool leaves_by_disney(const Material& material) {
     });
 }
 
-/// Has paths walk beneath the surface: all that may always, and in the lanes of a mask all.
+/// Has paths walk beneath the surface, in the lanes where that has an inside: all that may always, and in the lanes of
+/// the other mask all.
 template <class T>
-void open_to_walks(SurfaceOf<T>& surface, const Mask<T>& is_first) {
+void open_to_walks(SurfaceOf<T>& surface, const Mask<T>& has_inside, const Mask<T>& is_first) {
     for (LobeOf<T>& record : surface.lobes) {
         const Mask<T> is_kind = record.kind == subsurface_kind<T>();
         if (!any(is_kind)) continue;
         auto lobe = record.template read<Subsurface<T>>(is_kind);
-        lobe.walks(surface.wo_local, is_first || lobe.inside.is_always_walked > T(0));
+        lobe.walks(surface.wo_local, has_inside && (is_first || lobe.inside.is_always_walked > T(0)));
         record.write(lobe, is_kind);
     }
 }

@@ -62,10 +62,15 @@ PathBatch make_batch(const Work& work, std::uint32_t bounce, std::span<const Pat
     for (std::size_t i = count; i < batch_size; ++i) lanes[i] = lanes[count - 1], samplers[i] = samplers[count - 1];
     PathBatch batch{paths.first(count), pack<PathOf>(lanes), arrived.material.emission,
                     VertexBatch(sampler_lanes(samplers), arrived.point, arrived.material, arrived.bump, count)};
-    if (!work.is_diffused.empty() && any(batch.vertices.surface.has_lobes()))
-        open_to_walks(batch.vertices.surface, gather([&](std::size_t i) {
-                                                  return work.is_diffused[lanes[i]->sample] ? 0.0f : 1.0f;
-                                              }) > Batch(0.0f));
+    if (!work.is_diffused.empty() && any(batch.vertices.surface.has_lobes())) {
+        const auto where = [&](const auto& is) {
+            return gather([&](std::size_t i) { return is(*lanes[i]) ? 1.0f : 0.0f; }) > Batch(0.0f);
+        };
+        open_to_walks(batch.vertices.surface, where([&](const Path& path) {
+                          return work.scene.inner_rays().has_inside(path.arrival.hit.instance);
+                      }),
+                      where([&](const Path& path) { return work.is_diffused[path.sample] == 0; }));
+    }
     if (!work.min_pdf_omega.empty()) batch.vertices.surface = blurred(batch.vertices.surface, least_alpha(work, lanes));
     return batch;
 }

@@ -16,6 +16,7 @@ void InnerRays::set(std::span<const std::shared_ptr<const Mesh>> meshes,
     insides_.resize(instances.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if (!has_inside[i] || !instances[i]->world_from_object.is_invertible()) continue;
+        if (meshes[instances[i]->mesh]->curves) continue;
         insides_[i] = {bvhs_->bvh_of(meshes[instances[i]->mesh], false), instances[i]->world_from_object.inverse(),
                        instances[i]->motion};
     }
@@ -24,7 +25,6 @@ void InnerRays::set(std::span<const std::shared_ptr<const Mesh>> meshes,
 
 std::optional<RayHit> InnerRays::intersect(const Ray& ray, std::uint32_t instance) const {
     const Inside& inside = insides_[instance];
-    if (!inside.bvh) return std::nullopt;
     // The direction keeps the length that the transform gives it: distances are the world's.
     const Transform object_from_world =
         inside.world_from_moving ? inside.world_from_moving->at(ray.time).inverse() : inside.object_from_world;

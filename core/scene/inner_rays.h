@@ -21,7 +21,9 @@ class InnerRays {
              const std::vector<bool>& has_inside);
     bool is_empty() const { return insides_.empty(); }
 
-    /// Where a ray next meets the surface of an instance. Of one that is scaled flat, or has no inside: nowhere.
+    /// Of curves, and of what is scaled flat, there is none.
+    bool has_inside(std::uint32_t instance) const { return !insides_.empty() && insides_[instance].bvh; }
+    /// Where a ray next meets the surface of an instance that has an inside.
     std::optional<RayHit> intersect(const Ray& ray, std::uint32_t instance) const;
 
    private:

@@ -81,9 +81,6 @@ struct Subsurface {
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return make_base(BaseMaterialOf<T>{.diffuse = albedo(wo_local)}, wo_local);
     }
-    void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
-        highlights.add_beside(mean_component(inside.color - enters), where);
-    }
     Subsurface blurred(T) const { return *this; }
 };
 
