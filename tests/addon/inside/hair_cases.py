@@ -115,7 +115,7 @@ def _curves() -> None:
 
 
 def _points() -> None:
-    """A point cloud of the ball's vertices beside it."""
+    """A point cloud of the ball's vertices beside it; evenly scaled: else the Blenders' Cycles disagree."""
     _diffuse_in_sun()
     parts.world((0.2, 0.2, 0.2))
     group = bpy.data.node_groups.new("points", "GeometryNodeTree")
@@ -132,7 +132,7 @@ def _points() -> None:
     ball = bpy.data.objects["Sphere"]
     beside = parts.link("beads", ball.data.copy(), (1, -1, 0.5))
     beside.data.materials.append(parts.shaded("red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))[0])
-    beside.scale = (0.8, 0.8, 0.6)
+    beside.scale = (0.8, 0.8, 0.8)
     beside.modifiers.new("points", "NODES").node_group = group
 
 
