@@ -97,7 +97,8 @@ std::uint32_t add_curves(Scene& scene, const string& name, const FloatArray& pos
     require_shape(radii_m, prefix + "radii_m", {positions.shape(0)});
     require_shape(offsets, prefix + "offsets", {-1});
     const CurveSettings settings{
-        from_name<CurveShape>("shape", shape, {{"RIBBON", CurveShape::ribbon}, {"ROUND", CurveShape::round}}),
+        from_name<CurveShape>(
+            "shape", shape, {{"RIBBON", CurveShape::ribbon}, {"ROUND", CurveShape::round}, {"BALL", CurveShape::ball}}),
         subdivisions};
     Mesh mesh = make_curves(
         name, {reinterpret_cast<const Vec3f*>(positions.data()), static_cast<std::size_t>(positions.shape(0))},
@@ -327,7 +328,8 @@ void register_scene(py::module_& module) {
              py::arg("point_attributes") = AttributeArrays{}, py::arg("segment_slots") = py::none(),
              "Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each "
              "curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or "
-             "ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what "
+             "ROUND; of BALL each point is one. point_attributes by name, (P, 1..4); segment_slots (S,): material "
+             "slots. Returns the id of what "
              "is a mesh to all other functions.")
         .def("attribute_id", &Scene::attribute_id, py::arg("name"), "What programs call a mesh's attribute.")
         .def("add_instances", &add_instances, py::arg("name"), py::arg("mesh"), py::arg("object_to_world"),

@@ -1,7 +1,8 @@
-"""Curves with a thickness as arrays, and those of Curves objects."""
+"""Curves and points with a thickness as arrays, and those of Curves and Point Cloud objects."""
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -14,13 +15,13 @@ from .attributes import VALUES
 from .islands import random_of_numbers
 
 Array = NDArray[np.float32]
-DEFAULT_RADIUS_M = 0.005  # of a Curves object without radii, as Cycles has it
+CURVE_RADIUS_M, POINT_RADIUS_M = 0.005, 0.01  # of data without radii, as Cycles has it
 _SHAPES = {"RIBBONS": "RIBBON", "THICK": "ROUND"}
 
 
 @dataclass(frozen=True)
 class CurveArrays:
-    """P points of C curves; arguments of pivot_core.Scene.add_curves."""
+    """P points of C curves, a point cloud's as curves of one; arguments of pivot_core.Scene.add_curves."""
 
     positions: Array  # (P, 3)
     radii_m: Array  # (P,)
@@ -30,6 +31,26 @@ class CurveArrays:
     def add_of_curves(self, name: str, values: Array) -> None:
         """An attribute of (C, 1..4) values."""
         self.point_attributes[name] = np.repeat(values.reshape(len(self.offsets) - 1, -1), np.diff(self.offsets), 0)
+
+
+@dataclass(frozen=True)
+class CurveSource:
+    """What curves of an object are read from."""
+
+    name: str  # tells it from others of the object
+    slot: int  # of its material
+    state: tuple[int, ...]  # how many parts it has: with others it is another
+    read: Callable[[frozenset[str]], CurveArrays]  # with the attributes of these names
+    settings: dict[str, Any] = field(default_factory=dict)  # in the place of the scene's
+
+
+def curve_source(data: bpy.types.Curves | bpy.types.PointCloud) -> CurveSource:
+    """Of a Curves or Point Cloud object's evaluated data."""
+    if isinstance(data, bpy.types.PointCloud):
+        balls = {"shape": "BALL"}
+        return CurveSource("points", 0, (len(data.points),), functools.partial(point_arrays, data), balls)
+    state = len(data.points), len(data.curves)
+    return CurveSource("curves", 0, state, functools.partial(curve_arrays, data))
 
 
 def curve_settings(scene: bpy.types.Scene) -> dict[str, Any]:
@@ -43,26 +64,44 @@ def curve_settings(scene: bpy.types.Scene) -> dict[str, Any]:
 
 def curve_arrays(curves: bpy.types.Curves, names: frozenset[str]) -> CurveArrays:
     """Of a Curves object's evaluated data; names: of the attributes that its materials ask for."""
-    points, radius = len(curves.points), curves.attributes.get("radius")
-    positions, offsets = np.empty((points, 3), np.float32), np.zeros(len(curves.curves) + 1, np.int32)
-    radii = np.full(points, DEFAULT_RADIUS_M, np.float32)
+    positions, offsets = np.empty((len(curves.points), 3), np.float32), np.zeros(len(curves.curves) + 1, np.int32)
     curves.position_data.foreach_get("vector", positions.ravel())
     if len(curves.curves):
         curves.curve_offset_data.foreach_get("value", offsets)
+    arrays = CurveArrays(positions, _radii(curves, len(positions), CURVE_RADIUS_M), offsets)
+    add_strand_attributes(arrays, names)
+    _add_attributes(arrays, curves, names)
+    return arrays
+
+
+def point_arrays(points: bpy.types.PointCloud, names: frozenset[str]) -> CurveArrays:
+    """Of a Point Cloud object's evaluated data, likewise."""
+    count = len(points.points)
+    positions, at = np.empty((count, 3), np.float32), points.attributes.get("position")
+    if count:
+        at.data.foreach_get("vector", positions.ravel())
+    arrays = CurveArrays(positions, _radii(points, count, POINT_RADIUS_M), np.arange(count + 1, dtype=np.int32))
+    _add_attributes(arrays, points, names)
+    return arrays
+
+
+def _radii(data: Any, count: int, otherwise_m: float) -> Array:
+    radii, radius = np.full(count, otherwise_m, np.float32), data.attributes.get("radius")
     if radius is not None and radius.domain == "POINT" and radius.data_type == "FLOAT":
         radius.data.foreach_get("value", radii)
-    arrays = CurveArrays(positions, np.maximum(radii, 0), offsets)
-    add_strand_attributes(arrays, names)
+    return np.maximum(radii, 0)
+
+
+def _add_attributes(arrays: CurveArrays, data: Any, names: frozenset[str]) -> None:
     for name in names:
         kind, _, inner = name.partition(":")
         attribute = None
         if kind == "uv" and not inner:  # as Cycles has it: the first of two numbers that each curve has
-            attribute = next((a for a in curves.attributes if (a.data_type, a.domain) == ("FLOAT2", "CURVE")), None)
+            attribute = next((a for a in data.attributes if (a.data_type, a.domain) == ("FLOAT2", "CURVE")), None)
         elif kind in {"uv", "attribute"}:
-            attribute = curves.attributes.get(inner)
+            attribute = data.attributes.get(inner)
         if attribute is not None and attribute.data_type in VALUES:
             _add_attribute(arrays, attribute, name)
-    return arrays
 
 
 def _add_attribute(arrays: CurveArrays, attribute: Any, name: str) -> None:

@@ -9,12 +9,14 @@ from typing import Any
 
 import bpy
 
-_GEOMETRY = tuple(getattr(bpy.types, kind) for kind in ("Mesh", "Curve", "MetaBall", "Lattice", "Key"))
+_GEOMETRY = tuple(
+    getattr(bpy.types, kind) for kind in ("Mesh", "Curve", "MetaBall", "Lattice", "Key", "Curves", "PointCloud")
+)
 
 
 @dataclass(frozen=True)
 class _Entry:
-    state: Any  # of the evaluated mesh: another count of parts is another mesh, whatever Blender says
+    state: tuple[int, ...]  # of the evaluated data: another count of parts is another mesh, whatever Blender says
     meshes: list[tuple[Any, bool]]  # pivot_core.Mesh, and whether rays pass it
 
 
@@ -43,17 +45,17 @@ class MeshCache:
         scene: Any,
         blender_object: bpy.types.Object,
         how: tuple[Any, ...],
+        state: tuple[int, ...],
         add: Callable[[], list[tuple[int, bool]]],
     ) -> list[tuple[int, bool]]:
         """Ids in a pivot_core.Scene, and whether rays pass these; what `add` returns, which adds them, if need be.
 
-        blender_object: evaluated. how: what besides it the meshes depend on.
+        blender_object: evaluated. how: what besides it the meshes depend on. state: how many parts it has.
         """
-        mesh, original = blender_object.data, blender_object.original
-        if mesh.is_editmode:
+        data, original = blender_object.data, blender_object.original
+        if getattr(data, "is_editmode", False):
             return add()
-        key = (original.as_pointer(), original.data.as_pointer(), mesh.as_pointer(), *how)
-        state = len(mesh.vertices), len(mesh.loops), len(mesh.polygons)
+        key = (original.as_pointer(), original.data.as_pointer(), data.as_pointer(), *how)
         self._used.add(key)
         entry = self._entries.get(key)
         if entry is not None and entry.state == state:

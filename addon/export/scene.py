@@ -16,7 +16,7 @@ from .attributes import UV_OF_PASS, is_of_mesh, mesh_attributes, object_attribut
 from .baked import Interior
 from .census import report_left_out
 from .context import Context
-from .curves import CurveArrays, curve_arrays, curve_settings
+from .curves import CurveSource, curve_settings, curve_source
 from .grids import NO_GRIDS, Grids
 from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
@@ -28,13 +28,13 @@ from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
 from .mesh_cache import MeshCache
 from .smoke import has_smoke, smoke_domain, smoke_grids
-from .strands import strand_arrays, strand_modifiers
+from .strands import strand_sources
 from .visibility import Visible, visible
 from .volume_object import box_arrays, density_scale, volume_grids
 from .world import export_world
 
 # Old curves, texts, surfaces and metaballs need no word: what they look like comes as an instance of type MESH.
-_UNSUPPORTED = {"POINTCLOUD", "GPENCIL", "GREASEPENCIL"}
+_UNSUPPORTED = {"GPENCIL", "GREASEPENCIL"}
 
 
 @dataclass(frozen=True)
@@ -89,6 +89,12 @@ def _group_of(
         is_placed=is_placed,
         is_filled=is_filled,
         shines=shines,
+    )
+
+
+def _is_shown_as_curves(blender_object: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
+    return (
+        layer.use_strand if blender_object.type == "CURVES" else layer.use_solid and blender_object.type == "POINTCLOUD"
     )
 
 
@@ -177,8 +183,8 @@ class _Exporter:
                 self._warn_of_links(blender_object, links)
             elif layer.use_solid and blender_object.type == "MESH":
                 self._place(self._make_mesh_groups, blender_object, instance, told, index)
-            elif layer.use_strand and blender_object.type == "CURVES":
-                self._place(self._curve_groups, blender_object, instance, told, index)
+            elif _is_shown_as_curves(blender_object, layer):
+                self._place(self._curve_object_groups, blender_object, instance, told, index)
             elif layer.use_volumes and blender_object.type == "VOLUME":
                 of_object = self._of_object(blender_object, instancer)
                 for of_any in self._volume_groups(blender_object, told, index):
@@ -283,43 +289,43 @@ class _Exporter:
             ]
 
     def _strand_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
-        """The strands of an object's particle systems, one for each."""
         is_render = self._context.depsgraph.mode == "RENDER"
-        modifiers = strand_modifiers(blender_object, is_render)
-        if not modifiers:
+        return self._curve_groups(blender_object, strand_sources(blender_object, is_render), told, index)
+
+    def _curve_object_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
+        for described in (blender_object, blender_object.data):
+            report_left_out(described, f"object '{blender_object.name}'", self._context.reporter)
+        return self._curve_groups(blender_object, [curve_source(blender_object.data)], told, index)
+
+    def _curve_groups(
+        self, blender_object: bpy.types.Object, sources: list[CurveSource], told: Instances, index: int
+    ) -> list[_Group]:
+        """What is made of curves and points of an object: one for each of their sources."""
+        if not sources:
             return []
-        slots = self._slots_of_curves(blender_object, told, index)
+        slot_materials = [slot.material for slot in blender_object.material_slots]
+        slots = self._materials.slots(slot_materials, _interior(blender_object, None, told, index, NO_GRIDS))
         groups = []
-        for modifier in modifiers:
-            slot = min(max(modifier.particle_system.settings.material - 1, 0), len(slots.ids) - 1)
-            arrays = strand_arrays(blender_object, modifier, slots.of_mesh(), is_render)
-            if arrays is not None and slot not in slots.without_surface:
-                groups.append(self._group_of_curves(blender_object, arrays, slots.ids[slot], slots))
+        for source in sources:
+            slot = min(source.slot, len(slots.ids) - 1)
+            if slot not in slots.without_surface:
+                curves, material = self._core_curves(blender_object, source, slots.of_mesh()), (slots.ids[slot],)
+                mattes, attributes = self._context.mattes, slots.attributes
+                groups.append(_group_of(blender_object, curves, material, False, mattes, attributes, is_filled=False))
+        self._context.placed.with_curves.add(blender_object.original.as_pointer())
         return groups
 
-    def _curve_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[_Group]:
-        report_left_out(blender_object, f"object '{blender_object.name}'", self._context.reporter)
-        slots = self._slots_of_curves(blender_object, told, index)
-        if 0 in slots.without_surface:
-            return []
-        arrays = curve_arrays(blender_object.data, slots.of_mesh())
-        return [self._group_of_curves(blender_object, arrays, slots.ids[0], slots)]
+    def _core_curves(self, blender_object: bpy.types.Object, source: CurveSource, names: frozenset[str]) -> int:
+        name, cache, scene = blender_object.name, self._cache, self._context.scene
+        settings = curve_settings(self._context.depsgraph.scene_eval) | source.settings
 
-    def _slots_of_curves(self, blender_object: bpy.types.Object, told: Instances, index: int) -> Slots:
-        slot_materials = [slot.material for slot in blender_object.material_slots]
-        return self._materials.slots(slot_materials, _interior(blender_object, None, told, index, NO_GRIDS))
+        def add() -> list[tuple[int, bool]]:
+            with naming(f"object '{name}'", "correct these points, or what makes them"):
+                return [(scene.add_curves(name, **vars(source.read(names)), **settings), False)]
 
-    def _group_of_curves(
-        self, blender_object: bpy.types.Object, arrays: CurveArrays, material: int, slots: Slots
-    ) -> _Group:
-        name = blender_object.name
-        with naming(f"object '{name}'", "correct these points, or what makes them"):
-            settings = curve_settings(self._context.depsgraph.scene_eval)
-            curves = self._context.scene.add_curves(name, **vars(arrays), **settings)
-        self._context.placed.with_curves.add(blender_object.original.as_pointer())
-        return _group_of(
-            blender_object, curves, (material,), False, self._context.mattes, slots.attributes, is_filled=False
-        )
+        how = (source.name, names, *settings.values())
+        [(curves, _)] = add() if cache is None else cache.take(scene, blender_object, how, source.state, add)
+        return curves
 
     def _smoke_groups(self, interior: Interior, domain: Any, slot_materials: list[Any]) -> list[_Group]:
         """A domain as Cycles has it: its volume within its mesh, and no surface."""
@@ -390,7 +396,8 @@ class _Exporter:
         if key not in self._meshes:
             how = (names, slots.without_surface, last_slot if slots.without_surface else None)
             cache, scene = self._cache, self._context.scene
-            self._meshes[key] = add() if cache is None else cache.take(scene, blender_object, how, add)
+            state = len(mesh.vertices), len(mesh.loops), len(mesh.polygons)
+            self._meshes[key] = add() if cache is None else cache.take(scene, blender_object, how, state, add)
         return self._meshes[key]
 
     def _add_instances(self, group: _Group, indices: list[int], told: Instances) -> None:

@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .curves import CurveArrays, add_strand_attributes, ways_along
+from .curves import CurveArrays, CurveSource, add_strand_attributes, ways_along
 
 Array = NDArray[np.float32]
 
 
-def strand_modifiers(blender_object: bpy.types.Object, is_render: bool) -> list[Any]:
-    """The modifiers of an evaluated object whose particle systems show strands. None in Edit and Particle Edit Mode."""
+def strand_sources(blender_object: bpy.types.Object, is_render: bool) -> list[CurveSource]:
+    """One for each particle system of an evaluated object that shows strands. None in Edit and Particle Edit Mode."""
+    sources = []
+    for modifier in _strand_modifiers(blender_object, is_render):
+        counts, slot = strand_counts(modifier, is_render), max(modifier.particle_system.settings.material - 1, 0)
+        if counts.count:
+            read = functools.partial(strand_arrays, blender_object, modifier, counts)
+            sources.append(CurveSource(f"strands {modifier.name}", slot, tuple(counts), read))
+    return sources
+
+
+def _strand_modifiers(blender_object: bpy.types.Object, is_render: bool) -> list[Any]:
     if blender_object.type != "MESH" or blender_object.mode in {"EDIT", "PARTICLE_EDIT"}:
         return []
     return [
@@ -28,28 +39,36 @@ def strand_modifiers(blender_object: bpy.types.Object, is_render: bool) -> list[
     ]
 
 
-def strand_arrays(
-    blender_object: bpy.types.Object, modifier: Any, names: frozenset[str], is_render: bool
-) -> CurveArrays | None:
-    """The strands of one of its systems, object space; None where there are none.
+class StrandCounts(NamedTuple):
+    """Of one particle system."""
 
-    names: of the attributes that its material asks for. [Cycles 4.5 blender/curves.cpp, from which the thickness is]
-    """
+    first: int  # as Blender numbers them: parents come before their children, which are shown in their place
+    count: int
+    steps: int  # points of each
+
+
+def strand_counts(modifier: Any, is_render: bool) -> StrandCounts:
+    """[Cycles 4.5 blender/curves.cpp]"""
     system = modifier.particle_system
     settings, parents, children = system.settings, len(system.particles), len(system.child_particles)
     if not is_render:
         children = int(children * settings.display_percentage / 100)
     first = parents if settings.child_type != "NONE" and children else 0
-    count = parents + children - first
-    if count == 0:
-        return None
     steps = (1 << (settings.render_step if is_render else settings.display_step)) + 1
     if settings.kink == "SPIRAL":
         steps += settings.kink_extra_steps
+    return StrandCounts(first, parents + children - first, steps)
+
+
+def strand_arrays(
+    blender_object: bpy.types.Object, modifier: Any, counts: StrandCounts, names: frozenset[str]
+) -> CurveArrays:
+    """The strands of one of its systems, object space. names: of the attributes that its material asks for."""
+    system, (first, count, steps) = modifier.particle_system, counts
     positions = _positions(system, blender_object, first, count, steps)
     offsets = np.arange(count + 1, dtype=np.int32) * np.int32(steps)
     arrays = CurveArrays(positions, np.empty(len(positions), np.float32), offsets)
-    arrays.radii_m[:] = _radii(settings, arrays, steps)
+    arrays.radii_m[:] = _radii(system.settings, arrays, steps)
     add_strand_attributes(arrays, names)
     _add_emitter_attributes(blender_object, modifier, range(first, first + count), arrays, names)
     return arrays
@@ -70,6 +89,7 @@ def _positions(system: Any, blender_object: bpy.types.Object, first: int, count:
 
 
 def _radii(settings: Any, arrays: CurveArrays, steps: int) -> Array:
+    """[Cycles 4.5 blender/curves.cpp]"""
     along, lengths = ways_along(arrays)
     left = 1 - (along.reshape(-1, steps) / np.where(lengths > 0, lengths, 1)[:, None]).clip(0, 1)
     if settings.shape < 0:

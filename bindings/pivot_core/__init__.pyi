@@ -588,7 +588,7 @@ class Scene:
         segment_slots: typing.Annotated[numpy.typing.ArrayLike, numpy.int32] | None = None,
     ) -> int:
         """
-        Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or ROUND. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what is a mesh to all other functions.
+        Catmull-Rom splines through positions (P, 3), as thick as radii_m (P,) say; offsets (C + 1,): where each curve starts, and P. shape: RIBBON, which faces each ray, in so many straight subdivisions a segment, or ROUND; of BALL each point is one. point_attributes by name, (P, 1..4); segment_slots (S,): material slots. Returns the id of what is a mesh to all other functions.
         """
     def add_instances(
         self,

@@ -39,7 +39,13 @@ Mesh make_curves(const std::string& name, std::span<const Vec3f> positions, std:
     curves.keys.reserve(positions.size() + 2 * curve_count);
     curves.segments.reserve(positions.size());
     mesh.triangles.reserve(positions.size());
-    for (std::size_t curve = 0; curve < curve_count; ++curve) {
+    const auto key = [&](std::uint32_t i) { return CurvePoint(positions[i], radii_m[i]); };
+    for (std::uint32_t i = 0; settings.shape == CurveShape::ball && i < positions.size(); ++i) {
+        curves.keys.push_back(key(i));
+        curves.segments.push_back(i);
+        mesh.triangles.emplace_back(i, i, i);
+    }
+    for (std::size_t curve = 0; settings.shape != CurveShape::ball && curve < curve_count; ++curve) {
         const auto first = static_cast<std::uint32_t>(offsets[curve]),
                    end = static_cast<std::uint32_t>(offsets[curve + 1]);
         if (end - first < 2) continue;
@@ -47,7 +53,6 @@ Mesh make_curves(const std::string& name, std::span<const Vec3f> positions, std:
             curves.segments.push_back(static_cast<std::uint32_t>(curves.keys.size()) + (i - first));
             mesh.triangles.emplace_back(i, i + 1, i);
         }
-        const auto key = [&](std::uint32_t i) { return CurvePoint(positions[i], radii_m[i]); };
         curves.keys.push_back(key(first));
         for (std::uint32_t i = first; i < end; ++i) curves.keys.push_back(key(i));
         curves.keys.push_back(key(end - 1));
@@ -70,8 +75,33 @@ CurvePoint curve_derivative(const Curves& curves, std::uint32_t segment, float u
     return 0.5f * (linear + u * (2.0f * square + 3.0f * u * cube));
 }
 
+namespace {
+
+/// Whose edges touch the surface at a place with barycentric weights uv.
+HitTriangleOf<float> triangle_at(const Vec3f& position, const Vec2f& uv, const Vec3f& edge_u, const Vec3f& edge_v) {
+    const Vec3f corner = position - uv.x * edge_u - uv.y * edge_v;
+    return {.corner_a = corner,
+            .corner_b = corner + edge_u,
+            .corner_c = corner + edge_v,
+            .normal_a = Vec3f(0.0f),
+            .normal_b = Vec3f(0.0f),
+            .normal_c = Vec3f(0.0f),
+            .world_from_object = {},
+            .normal_matrix = Mat3<float>(1.0f)};
+}
+
+HitTriangleOf<float> triangle_on_ball(const CurvePoint& ball, const Vec2f& uv, const Vec3f& direction) {
+    const Vec2f across = uv / std::max(std::sqrt(dot(uv, uv)) / max_sine, 1.0f);
+    const Vec3f normal = ball_frame(direction).to_world(Vec3f(across, std::sqrt(1.0f - dot(across, across))));
+    const Frame<float> touching = frame_from_z(normal);
+    return triangle_at(Vec3f(ball) + ball.w * normal, uv, ball.w * touching.x, ball.w * touching.y);
+}
+
+}  // namespace
+
 HitTriangleOf<float> touching_triangle(const Curves& curves, std::uint32_t segment, const Vec2f& uv,
                                        const Vec3f& direction) {
+    if (curves.shape == CurveShape::ball) return triangle_on_ball(curves.keys[segment], uv, direction);
     const CurvePoint axis = curve_point(curves, segment, uv.x);
     const Vec3f wo = -normalize(direction), along(curve_derivative(curves, segment, uv.x));
     const Vec3f tangent = unit_or(along, any_across(wo));
@@ -82,15 +112,7 @@ HitTriangleOf<float> touching_triangle(const Curves& curves, std::uint32_t segme
     const Vec3f position = Vec3f(axis) + axis.w * on_tube;
     const Vec3f edge_u = std::max(length(along), 1e-6f) * tangent,
                 edge_v = std::max(axis.w, 1e-9f) * cross(normal, tangent);
-    const Vec3f corner = position - uv.x * edge_u - uv.y * edge_v;
-    return {.corner_a = corner,
-            .corner_b = corner + edge_u,
-            .corner_c = corner + edge_v,
-            .normal_a = Vec3f(0.0f),
-            .normal_b = Vec3f(0.0f),
-            .normal_c = Vec3f(0.0f),
-            .world_from_object = {},
-            .normal_matrix = Mat3<float>(1.0f)};
+    return triangle_at(position, uv, edge_u, edge_v);
 }
 
 }  // namespace pivot

@@ -5,8 +5,16 @@
 namespace pivot {
 namespace {
 
-/// Of a round tube, whose hits come with a normal: drops what is met from within, and tells where across the ray the
-/// others are, as ribbons' hits do.
+/// Where a ray meets a round tube with this normal, as ribbons' hits tell it.
+Vec2f place_on_tube(const Curves& curves, std::uint32_t segment, float u, const Vec3f& normal, const Vec3f& direction) {
+    const Vec3f along(curve_derivative(curves, segment, u)), across = cross(direction, along);
+    const Vec3f around = normal - dot(normal, along) / std::max(length_squared(along), 1e-30f) * along;
+    const float scale2 = length_squared(across) * length_squared(around);
+    return {u, scale2 > 0.0f ? dot(across, around) / std::sqrt(scale2) : 0.0f};
+}
+
+/// Of what is round, whose hits come with a normal: drops what is met from within, and tells where the others are as
+/// touching_triangle() wants it.
 void keep_fronts(const RTCFilterFunctionNArguments* arguments) {
     const auto* curves = static_cast<const Curves*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
@@ -20,26 +28,30 @@ void keep_fronts(const RTCFilterFunctionNArguments* arguments) {
             arguments->valid[i] = 0;
             continue;
         }
-        const Vec3f along(
-            curve_derivative(*curves, RTCHitN_primID(arguments->hit, n, i), RTCHitN_u(arguments->hit, n, i)));
-        const Vec3f across = cross(direction, along);
-        const Vec3f around = normal - dot(normal, along) / std::max(length_squared(along), 1e-30f) * along;
-        const float scale2 = length_squared(across) * length_squared(around);
-        RTCHitN_v(arguments->hit, n, i) = scale2 > 0.0f ? dot(across, around) / std::sqrt(scale2) : 0.0f;
+        const Vec2f uv = curves->shape == CurveShape::ball
+                             ? Vec2f(ball_frame(direction).to_local(normalize(normal)))
+                             : place_on_tube(*curves, RTCHitN_primID(arguments->hit, n, i),
+                                             RTCHitN_u(arguments->hit, n, i), normal, direction);
+        RTCHitN_u(arguments->hit, n, i) = uv.x;
+        RTCHitN_v(arguments->hit, n, i) = uv.y;
     }
 }
 
 }  // namespace
 
 Owned<RTCGeometry> EmbreeDevice::make_curves(const Curves& curves) const {
-    const bool is_round = curves.shape == CurveShape::round;
-    Owned<RTCGeometry> geometry(rtcNewGeometry(
-        handle.get(), is_round ? RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE : RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE));
+    const auto type_of = [](CurveShape shape) {
+        if (shape == CurveShape::ball) return RTC_GEOMETRY_TYPE_SPHERE_POINT;
+        return shape == CurveShape::round ? RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE
+                                          : RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE;
+    };
+    Owned<RTCGeometry> geometry(rtcNewGeometry(handle.get(), type_of(curves.shape)));
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.keys.data(), 0,
                                sizeof(CurvePoint), curves.keys.size());
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
-                               sizeof(std::uint32_t), curves.segments.size());
-    if (is_round) {
+    if (curves.shape != CurveShape::ball)
+        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
+                                   sizeof(std::uint32_t), curves.segments.size());
+    if (curves.shape != CurveShape::ribbon) {
         rtcSetGeometryUserData(geometry.get(), const_cast<Curves*>(&curves));
         rtcSetGeometryIntersectFilterFunction(geometry.get(), keep_fronts);
         rtcSetGeometryOccludedFilterFunction(geometry.get(), keep_fronts);

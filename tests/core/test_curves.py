@@ -65,6 +65,23 @@ def test_hair_without_absorption_keeps_all_light() -> None:
         np.testing.assert_allclose(picture(shape, hair)[29:35].mean(), 1, rtol=0.02)
 
 
+def test_a_ball_is_lit_as_a_sphere() -> None:
+    """By a sun from the side: Lambert's cosine of its normal."""
+    scene = pivot_core.Scene()
+    ball = scene.add_curves("ball", np.zeros((1, 3)), np.full(1, RADIUS_M), np.array([0, 1]), "BALL")
+    white = pivot_core.Material(diffuse=(1, 1, 1))
+    scene.add_instances("ball", ball, place(), [scene.add_material("m", white)])
+    toward = np.array([0.48, 0.64, 0.6])
+    scene.add_light("sun", pivot_core.SunLight(tuple(toward), 0.01, (1, 1, 1)))
+    set_camera(scene, (0, 0, 10), size=(64, 64), half_width=0.022)
+    seen = render(scene, samples=64, max_bounces=0)[..., 0]
+    x, y = np.meshgrid(*2 * [((np.arange(64) + 0.5) / 32 - 1) * 0.22 / RADIUS_M])
+    inside = x * x + y * y < 0.9
+    z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
+    cosine = np.maximum(np.stack([x, y, z], -1) @ toward, 0)
+    np.testing.assert_allclose(seen[inside], cosine[inside] / np.pi, atol=0.015)
+
+
 def test_attributes_go_from_point_to_point() -> None:
     """Emission by an attribute of the points."""
     scene = pivot_core.Scene()

@@ -90,6 +90,7 @@ OBJECT = {
         use_remesh_preserve_attributes use_paint_bone_selection radial_symmetry@5.0
         """,
     ),
+    "PointCloud": Table(used="points materials attributes animation_data", no_meaning="color_attributes"),
     "Curves": Table(
         used="curves points position_data curve_offset_data materials attributes animation_data",
         no_meaning="""

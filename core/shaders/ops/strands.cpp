@@ -9,16 +9,16 @@ namespace {
 Batch is_strand(const Place& place) {
     return gather([&](std::size_t lane) {
         const Mesh* mesh = place.lanes.meshes[lane];
-        return mesh && mesh->curves ? 1.0f : 0.0f;
+        return mesh && mesh->curves && mesh->curves->shape != CurveShape::ball ? 1.0f : 0.0f;
     });
 }
 
-/// m, of the object's own space; 0 of a mesh. [Cycles 4.5 geom/curve.h, curve_thickness]
+/// m, of the object's own space; 0 of a mesh and of balls. [Cycles 4.5 geom/curve.h, curve_thickness]
 Batch strand_thickness(const Place& place) {
     const Lanes u = store(place.barycentric.x);
     return gather([&](std::size_t lane) {
         const Mesh* mesh = place.lanes.meshes[lane];
-        if (!mesh || !mesh->curves) return 0.0f;
+        if (!mesh || !mesh->curves || mesh->curves->shape == CurveShape::ball) return 0.0f;
         const CurvePoint* keys = &mesh->curves->keys[mesh->curves->segments[place.lanes.triangles[lane]]];
         return 2.0f * lerp(keys[1].w, keys[2].w, u[lane]);
     });

@@ -24,6 +24,7 @@ KINDS = (
     "MaterialSlot",
     "Volume",
     "Curves",
+    "PointCloud",
     "Scene",
     "ViewLayer",
     "LayerCollection",

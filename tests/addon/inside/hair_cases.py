@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -113,6 +114,28 @@ def _curves() -> None:
     bpy.context.view_layer.objects.active = bpy.data.objects["Sphere"]
 
 
+def _points() -> None:
+    """A point cloud of the ball's vertices beside it; evenly scaled: else the Blenders' Cycles disagree."""
+    _diffuse_in_sun()
+    parts.world((0.2, 0.2, 0.2))
+    group = bpy.data.node_groups.new("points", "GeometryNodeTree")
+    if hasattr(group, "interface"):  # from Blender 4.0
+        for in_out in ("INPUT", "OUTPUT"):
+            group.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    else:
+        group.inputs.new("NodeSocketGeometry", "Geometry")
+        group.outputs.new("NodeSocketGeometry", "Geometry")
+    nodes = [group.nodes.new(kind) for kind in ("NodeGroupInput", "GeometryNodeMeshToPoints", "NodeGroupOutput")]
+    nodes[1].inputs["Radius"].default_value = 0.12
+    for a, b in itertools.pairwise(nodes):
+        group.links.new(a.outputs[0], b.inputs[0])
+    ball = bpy.data.objects["Sphere"]
+    beside = parts.link("beads", ball.data.copy(), (1, -1, 0.5))
+    beside.data.materials.append(parts.shaded("red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))[0])
+    beside.scale = (0.8, 0.8, 0.8)
+    beside.modifiers.new("points", "NODES").node_group = group
+
+
 def _round() -> None:
     _diffuse_in_sun()
     bpy.context.scene.cycles_curves.shape = "THICK"
@@ -142,4 +165,5 @@ CASES = {
     "hair_of_melanin": _hair_of_melanin,
     "told": _told,
     "curves": _curves,
+    "points": _points,
 }
