@@ -6,7 +6,7 @@ namespace pivot {
 namespace {
 
 /// Less of a pixel than this, which the tail of its filter gives, is not seen.
-constexpr float least_share = 1.0f / 256.0f;
+constexpr float least_share = 1.0f / 1024.0f;
 
 /// a over b; where b is 0 the mean of the other parts, 0 without any.
 Rgb divided_evenly(const Rgb& a, const Rgb& b) {

@@ -33,7 +33,9 @@ def folder(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_pictures_are_cycles(folder: Path, name: str) -> None:
+def test_pictures_are_cycles(host: Host, folder: Path, name: str) -> None:
+    if host.version < (4, 0) and name == "opaque_to_shadows":
+        pytest.skip("there some of Cycles' shadow rays pass what hides light")
     ours, cycles = (read_rgb(folder / f"{name}_{engine}.exr") for engine in ("MONTE_CARLO", "CYCLES"))
     assert ours.mean(axis=(0, 1)) == pytest.approx(cycles.mean(axis=(0, 1)), rel=TOLERANCE)
     shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]

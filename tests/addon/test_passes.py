@@ -15,7 +15,7 @@ from exr import read_passes
 LIGHT = {
     f"{kind}{part}": f"{kind}Col" for kind in ("Diff", "Gloss", "Trans") for part in ("Dir", "Ind")
 }  # and what it is to be multiplied by
-DATA = ("DiffCol", "TransCol", "Emit", "Env", "UV", "Mist")
+DATA = ("DiffCol", "TransCol", "Emit", "Env", "UV", "Mist", "AO")
 NAMES_5_0 = {
     "DiffDir": "Diffuse Direct",
     "DiffInd": "Diffuse Indirect",
@@ -28,6 +28,7 @@ NAMES_5_0 = {
     "TransCol": "Transmission Color",
     "Emit": "Emission",
     "Env": "Environment",
+    "AO": "Ambient Occlusion",
     "IndexOB": "Object Index",
     "IndexMA": "Material Index",
 }

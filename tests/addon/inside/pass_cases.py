@@ -15,7 +15,7 @@ LIGHT = tuple(
     f"{kind}_{part}" for kind in ("diffuse", "glossy", "transmission") for part in ("direct", "indirect", "color")
 )
 MATTES = ("cryptomatte_object", "cryptomatte_material", "cryptomatte_asset")
-PASSES = (*LIGHT, *MATTES, "emit", "environment", "uv", "mist", "object_index", "material_index")
+PASSES = (*LIGHT, *MATTES, "emit", "environment", "uv", "mist", "object_index", "material_index", "ambient_occlusion")
 
 
 def main(folder: Path) -> Any:
@@ -41,6 +41,7 @@ def main(folder: Path) -> Any:
     parts.world((0.2, 0.25, 0.3)).mist_settings.start = 4
     mist = bpy.context.scene.world.mist_settings
     mist.depth, mist.falloff = 6, "QUADRATIC"
+    bpy.context.scene.world.light_settings.distance = 1.5
     layer = bpy.context.view_layer
     for name in PASSES:
         setattr(layer, f"use_pass_{name}", True)

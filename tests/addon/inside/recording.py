@@ -197,6 +197,7 @@ class Scene:
         link_sets: Any = (),
         shadow_catcher: bool = False,
     ) -> int:
+        self.has_shadow_catchers = self.has_shadow_catchers or shadow_catcher
         materials = [list(self.recording.materials)[material] for material in materials]
         self.recording.instances.append(
             SimpleNamespace(
