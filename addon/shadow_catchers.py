@@ -29,7 +29,8 @@ def catcher_values(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) 
 
 def catcher_passes(scene: bpy.types.Scene) -> int:
     """How many colours of each pixel a film keeps for them."""
-    return 5 if any(each.is_shadow_catcher for each in scene.objects) else 0
+    kinds = {"MESH", "VOLUME"}  # a new lamp says that it is one
+    return 5 if any(each.is_shadow_catcher for each in scene.objects if each.type in kinds) else 0
 
 
 class CatcherReader:
