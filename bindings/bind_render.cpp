@@ -4,7 +4,7 @@
 
 #include "bindings/names.h"
 #include "bindings/register.h"
-#include "core/render.h"
+#include "core/render/session.h"
 
 namespace pivot::bindings {
 namespace {

@@ -96,7 +96,7 @@ std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_pa
                                 .opacity = 1.0f,
                                 .shown = 1.0f,
                                 .passed = Rgb(0.0f),
-                                .only_shines = passed >= max_path_passages});
+                                .only_shines = scene.has_transparency() && passed >= max_path_passages});
             const Passage& passage = passages.back();
             if (passage.only_shines || !scene.shaders()[passage.material].is_transparent()) continue;
             arrivals.push_back({.direction = ray.ray.direction,

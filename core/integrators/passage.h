@@ -57,13 +57,16 @@ struct PassageChoice {
 };
 
 /// The surfaces on the rays' ways, by ray and then by distance: those that are passed, and one behind unless there is
-/// none. bounce: of what comes next.
+/// none. bounce: of what comes next. Where the scene has no transparent surfaces, what each ray meets.
 std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
                                    std::span<const StraightRay> rays, std::uint32_t bounce, const PassageChoice& choice,
                                    ProgramMemory& memory);
 
 /// Those of one ray, the next; all: as found, less what was taken.
 std::span<const Passage> take_passages(std::span<const Passage>& all, std::size_t ray);
+
+/// Whether a way has an end, behind which the ray meets nothing.
+inline bool ends(std::span<const Passage> way) { return !way.empty() && way.back().ends(); }
 
 /// The surface on a camera ray's way that passes tell of: the first that hides at least half of what is behind it, or
 /// else the last that is shown; null: none is.

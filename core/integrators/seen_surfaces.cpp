@@ -148,45 +148,34 @@ std::vector<Seen> surfaces_on(const Scene& scene, const RenderSettings& settings
     std::vector<std::optional<RayHit>> hits(rays.size());
     scene.intersect(rays, visible_to_camera, hits);
     const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(settings);
-    const std::vector<Passage> passages =
-        scene.has_transparency() ? find_passages(scene, settings.max_path_passages, straight_rays(rays, hits, width), 0,
-                                                 {.least_part = 0.0f, .u = {}}, memory)
-                                 : std::vector<Passage>();
+    const std::vector<Passage> passages = find_passages(
+        scene, settings.max_path_passages, straight_rays(rays, hits, width), 0, {.least_part = 0.0f, .u = {}}, memory);
     std::span<const Passage> left = passages;
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         Rgb worth(1.0f);
-        const auto arrival_at = [&](const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind) {
+        const auto arrival_at = [&](const Passage& passage) {
             return Arrival{.direction = rays[i].direction,
-                           .hit = hit,
-                           .material = material,
-                           .footprint_m = width.at(hit.distance_m),
-                           .ray_kind = ray_kind};
+                           .hit = passage.hit,
+                           .material = passage.material,
+                           .footprint_m = width.at(passage.hit.distance_m),
+                           .ray_kind = passage.ray_kind};
         };
-        const auto show = [&](const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind, bool is_told) {
-            if (!scene.is_holdout(hit)) seen.push_back({arrival_at(hit, material, ray_kind), i, worth, is_told});
-        };
-        bool ends = false, is_hidden = false;
-        if (scene.has_transparency()) {
-            const std::span<const Passage> way = take_passages(left, i);
-            const Passage* told = told_of(way);
-            for (const Passage& passage : way) {
-                if (values.is_wanted() && !is_hidden)
-                    values.meet(arrival_at(passage.hit, passage.material, passage.ray_kind), i, mean_component(worth));
-                is_hidden = is_hidden || passage.opacity >= 0.5f;
-                if (passage.shown > 0.0f && !passage.only_shines)
-                    show(passage.hit, passage.material, passage.ray_kind, &passage == told);
-                worth *= passage.passed;
-                ends = passage.ends();
-            }
-        } else if (hits[i]) {
-            show(*hits[i], scene.material_of(*hits[i]), camera_ray, true);
-            if (values.is_wanted()) values.meet(arrival_at(*hits[i], scene.material_of(*hits[i]), camera_ray), i, 1.0f);
-            ends = true;
+        bool is_hidden = false;
+        const std::span<const Passage> way = take_passages(left, i);
+        const Passage* told = told_of(way);
+        for (const Passage& passage : way) {
+            const Arrival arrival = arrival_at(passage);
+            if (values.is_wanted() && !is_hidden) values.meet(arrival, i, mean_component(worth));
+            is_hidden = is_hidden || passage.opacity >= 0.5f;
+            if (passage.shown > 0.0f && !passage.only_shines && !scene.is_holdout(passage.hit))
+                seen.push_back({arrival, i, worth, &passage == told});
+            worth *= passage.passed;
         }
-        if (!ends && values.is_wanted() && !is_hidden)
+        if (ends(way)) continue;
+        if (values.is_wanted() && !is_hidden)
             values.meet_world(rays[i].direction, i, mean_component(worth), memory.registers);
-        if (!ends && !passes.empty())
+        if (!passes.empty())
             passes[i].environment =
                 worth * world_radiance(scene.world_view(), rays[i].direction, camera_ray, 0, memory.registers);
     }

@@ -31,8 +31,7 @@ Rgb lamps_met(const Scene& scene, const LookRay& ray, std::uint32_t bounce, floa
 std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
                                   std::span<const LookRay> rays, std::span<const std::optional<RayHit>> hits,
                                   ProgramMemory& memory, std::span<Sample> samples) {
-    std::vector<Passage> passages;
-    if (scene.has_transparency()) passages = passages_of(scene, settings, bounce, rays, hits, memory);
+    const std::vector<Passage> passages = passages_of(scene, settings, bounce, rays, hits, memory);
     std::span<const Passage> left = passages;
     std::vector<Shown> shown;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -63,25 +62,17 @@ std::vector<Shown> shown_surfaces(const Scene& scene, const RenderSettings& sett
             add_light(one.worth * lamps_met(scene, ray, bounce, from_m, distance_m), ray.is_spread, sample);
             from_m = distance_m;
         };
-        bool ends = false;
-        if (scene.has_transparency()) {
-            const std::span<const Passage> way = take_passages(left, i);
-            const Passage* told = bounce == 0 ? told_of(way) : nullptr;
-            for (const Passage& passage : way) {
-                cross_to(passage.hit.distance_m);
-                one.is_told = &passage == told;
-                one.arrival.ray_kind = passage.ray_kind;
-                one.only_shines = passage.only_shines;
-                if (passage.shown > 0.0f) show(passage.hit, passage.material, passage.opacity);
-                one.worth *= passage.passed;
-                ends = passage.ends();
-            }
-        } else if (hits[i]) {
-            cross_to(hits[i]->distance_m);
-            show(*hits[i], scene.material_of(*hits[i]), 1.0f);
-            ends = true;
+        const std::span<const Passage> way = take_passages(left, i);
+        const Passage* told = bounce == 0 ? told_of(way) : nullptr;
+        for (const Passage& passage : way) {
+            cross_to(passage.hit.distance_m);
+            one.is_told = &passage == told;
+            one.arrival.ray_kind = passage.ray_kind;
+            one.only_shines = passage.only_shines;
+            if (passage.shown > 0.0f) show(passage.hit, passage.material, passage.opacity);
+            one.worth *= passage.passed;
         }
-        if (ends) continue;
+        if (ends(way)) continue;
         cross_to(std::numeric_limits<float>::infinity());
         if (bounce == 0 && settings.transparent_film)
             sample.alpha -= std::min(mean_component(one.worth), 1.0f);

@@ -49,10 +49,9 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
     const PixelWidth width = scene.camera().pixel_width() * part_of_pixel(work.settings);
     // Passes keep what is shown for one path of a sample.
     const float least_part = work.passes.empty() ? least_part_of_camera : never_two;
-    std::vector<Passage> passages;
-    if (scene.has_transparency())
-        passages = find_passages(scene, work.settings.max_path_passages, straight_rays(camera_rays, hits, width), 0,
-                                 chosen_by(work.samplers, 0, least_part, std::identity()), work.memory);
+    const std::vector<Passage> passages =
+        find_passages(scene, work.settings.max_path_passages, straight_rays(camera_rays, hits, width), 0,
+                      chosen_by(work.samplers, 0, least_part, std::identity()), work.memory);
     std::span<const Passage> left = passages;
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
         Sample& sample = work.samples[i];
@@ -84,31 +83,23 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
             paths.push_back(path);
             paths.back().throughput *= shown;
         };
-        bool ends = false;
-        if (scene.has_transparency()) {
-            const std::span<const Passage> way = take_passages(left, i);
-            const Passage* told = told_of(way);
-            for (const Passage& passage : way) {
-                cross_to(passage.hit.distance_m);
-                path.arrival.ray_kind = passage.ray_kind;
-                if (passage.only_shines) {
-                    const Rgb emitted = path.throughput * scene.shaders()[passage.material].constants.emission;
-                    sample.radiance += emitted;
-                    sample.emission += emitted;
-                    add_to_group(work, i, scene.light_group_of(passage.hit), emitted);
-                } else if (passage.shown > 0.0f) {
-                    path.emission_weight = &passage == told ? 1.0f : 0.0f;
-                    show(passage.hit, passage.material, passage.shown);
-                }
-                path.throughput *= passage.passed;
-                ends = passage.ends();
+        const std::span<const Passage> way = take_passages(left, i);
+        const Passage* told = told_of(way);
+        for (const Passage& passage : way) {
+            cross_to(passage.hit.distance_m);
+            path.arrival.ray_kind = passage.ray_kind;
+            if (passage.only_shines) {
+                const Rgb emitted = path.throughput * scene.shaders()[passage.material].constants.emission;
+                sample.radiance += emitted;
+                sample.emission += emitted;
+                add_to_group(work, i, scene.light_group_of(passage.hit), emitted);
+            } else if (passage.shown > 0.0f) {
+                path.emission_weight = &passage == told ? 1.0f : 0.0f;
+                show(passage.hit, passage.material, passage.shown);
             }
-        } else if (hits[i]) {
-            cross_to(hits[i]->distance_m);
-            show(*hits[i], scene.material_of(*hits[i]), 1.0f);
-            ends = true;
+            path.throughput *= passage.passed;
         }
-        if (ends) continue;
+        if (ends(way)) continue;
         cross_to(camera_rays[i].far_m);
         if (work.settings.transparent_film) {
             sample.alpha -= std::min(mean_component(path.throughput), 1.0f);

@@ -133,5 +133,5 @@ def _strict(folder: Path, has_warning: bool) -> Any:
 
 def _memory(folder: Path) -> Any:
     scene()
-    with patch("pivot.export.scene.mesh_arrays", side_effect=MemoryError):
+    with patch("pivot.export.groups.mesh_arrays", side_effect=MemoryError):
         return render(folder / "memory.png")
