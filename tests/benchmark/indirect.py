@@ -23,6 +23,7 @@ from pathlib import Path
 
 import indirect_plain as plain
 import indirect_scenes as scenes
+import lobe_scenes as lobes
 import monte_carlo_table as table
 from indirect_table import print_ratios, write_sheet
 from monte_carlo_filters import FILTERS
@@ -34,7 +35,7 @@ OUTPUT = Path(__file__).resolve().parents[2] / "build" / "indirect"
 WORKER = "indirect_blender.py"
 BOUNCES = 4
 PIVOT = {"max_bounces": BOUNCES} | FILTERS["BLACKMAN_HARRIS"]["pivot"]
-CYCLES = {f"{kind}_bounces": BOUNCES for kind in ("max", "diffuse", "glossy")}
+CYCLES = {f"{kind}_bounces": BOUNCES for kind in ("max", "diffuse", "glossy", "transmission")}
 # Mitsuba hides lamps and the world from the camera together.
 PLAIN_PIVOT = {"max_bounces": BOUNCES} | FILTERS["BOX"]["pivot"] | {"transparent_film": True}
 PLAIN_MITSUBA = {"max_bounces": BOUNCES}
@@ -66,6 +67,8 @@ def find_plain_renderers(blender: str, mitsuba: str) -> list[Renderer]:
 def scene_key(scene: str) -> str:
     """One for all, and one for all that are plain: they share their builders."""
     described = Path(scenes.__file__).read_bytes() + scenes.DEFAULT_SCENE.read_bytes()
+    if scene in lobes.SCENES:
+        described += Path(lobes.__file__).read_bytes()
     if scene in plain.SCENES:
         described += Path(plain.__file__).read_bytes() + repr((PLAIN_PIVOT, PLAIN_MITSUBA)).encode()
     else:
@@ -77,7 +80,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blender", nargs="+", default=[sys.executable], help="Pythons with bpy; the first has Pivot")
     parser.add_argument("--mitsuba", default=sys.executable, help="a Python with mitsuba and bpy")
-    parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=list(scenes.SCENES))
+    parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=[*scenes.SCENES, *lobes.SCENES])
     parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--reference-samples", type=int, default=256)
@@ -95,6 +98,8 @@ def main() -> None:
     ):
         rows = []
         for name in arguments.scenes:
+            if suffix and name + suffix not in plain.SCENES:
+                continue
             found = measure(gallery, renderers, name + suffix, arguments)
             if found:
                 rows += found

@@ -339,17 +339,17 @@ def _from_primitives(build: Callable[[], None]) -> Callable[[], None]:
     def build_all() -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         build()
-        _set_size()
+        set_size()
 
     return build_all
 
 
 def default_scene() -> None:
     bpy.ops.wm.open_mainfile(filepath=str(DEFAULT_SCENE))
-    _set_size()
+    set_size()
 
 
-def _set_size() -> None:
+def set_size() -> None:
     render = bpy.context.scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = WIDTH, HEIGHT, 100
 
