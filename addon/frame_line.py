@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import resource
 import time
 from dataclasses import dataclass, field
 
 import bpy
 
+from .memory import peak_bytes
 from .properties import INTEGRATORS
 
 
@@ -28,7 +28,7 @@ def frame_line(scene: bpy.types.Scene, count: FrameCount) -> str:
     integrator = next(name for key, name, _ in INTEGRATORS if key == scene.pivot.integrator)
     done = min(count.samples_done, default=0)
     of = "" if done == count.samples else f" of {count.samples}"
-    peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000  # of the whole process; Linux counts in kB
+    peak_mb = peak_bytes() / 1e6
     parts = [
         f"Frame {scene.frame_current}",
         integrator,

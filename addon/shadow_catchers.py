@@ -27,6 +27,12 @@ def catcher_values(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) 
     return {"shadow_catchers": True}
 
 
+def report_in_view(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) -> None:
+    """Say what a 3D view does not show of them."""
+    if core_scene.has_shadow_catchers:
+        reporter.warn(f"scene '{scene.name}': in 3D views shadow catchers are shown as they are. Fix: render it")
+
+
 def catcher_passes(scene: bpy.types.Scene) -> int:
     """How many colours of each pixel a film keeps for them."""
     kinds = {"MESH", "VOLUME"}  # a new lamp says that it is one

@@ -17,6 +17,7 @@ from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
+from .shadow_catchers import report_in_view
 from .viewport_denoise import ViewportDenoiser
 from .viewport_draw import Picture, draw_picture
 from .viewport_pace import Pace
@@ -177,6 +178,7 @@ class Viewport:
         self._warnings = reporter.warnings
         is_shown = None if shows_all(space) else lambda shown: shown.visible_in_viewport_get(space)
         exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, self._meshes, is_shown)
+        report_in_view(exported.scene, depsgraph.scene, reporter)
         self._images.sweep()
         self._meshes.sweep()
         self._scene = exported.scene

@@ -111,7 +111,9 @@ Vec3b world_met(const Work& work, const Vec3b& wi, const Batch& bsdf_pdf_omega, 
     }
     if (environment.is_dark() || work.settings.light_sampling == LightSampling::bsdf) return radiance;
     if (work.settings.light_sampling == LightSampling::light) return Vec3b(Batch(0.0f));
-    const auto samples = static_cast<float>(WorldPlan::at(bounce - 1).candidates);
+    // Past its own bounces the world is met as it is in Cycles, which weighs it beside a sample that it does not take.
+    const bool is_sampled = bounce - 1 <= work.scene.world_rules().max_bounces;
+    const auto samples = is_sampled ? static_cast<float>(WorldPlan::at(bounce - 1).candidates) : 1.0f;
     return radiance * balance(bsdf_pdf_omega, Batch(samples) * environment.pdf_omega(wi));
 }
 

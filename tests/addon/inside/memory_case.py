@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 import sys
 from pathlib import Path
 from typing import Any
@@ -23,20 +22,16 @@ def main(folder: Path) -> Any:
     layer = bpy.context.view_layer
     layer.use_pass_position = layer.use_pass_normal = True
     render(folder / "small.png")  # loads what is loaded once
-    before = _peak_bytes()
+    before = memory.peak_bytes()
     parts.size(SIDE_PX, SIDE_PX)
     render(folder / "large.png")
     film = native.Session.bytes_per_pixel(False)
     return {
-        "taken": _peak_bytes() - before,
+        "taken": memory.peak_bytes() - before,
         "estimate": memory.picture_bytes(SIDE_PX, SIDE_PX, film, [channels(layer)]),
         "available": memory.available_bytes(),
         "limited": _limited(memory, folder),
     }
-
-
-def _peak_bytes() -> int:
-    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def _limited(memory: Any, folder: Path) -> float:
