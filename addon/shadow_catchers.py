@@ -27,10 +27,10 @@ def catcher_values(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) 
     return {"shadow_catchers": True}
 
 
-def report_in_view(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) -> None:
+def report_in_view(core_scene: Any, reporter: Reporter) -> None:
     """Say what a 3D view does not show of them."""
     if core_scene.has_shadow_catchers:
-        reporter.warn(f"scene '{scene.name}': in 3D views shadow catchers are shown as they are. Fix: render it")
+        reporter.warn("shadow catchers are shown as they are in 3D views. Fix: render the picture")
 
 
 def catcher_passes(scene: bpy.types.Scene) -> int:

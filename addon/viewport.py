@@ -178,7 +178,7 @@ class Viewport:
         self._warnings = reporter.warnings
         is_shown = None if shows_all(space) else lambda shown: shown.visible_in_viewport_get(space)
         exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, self._meshes, is_shown)
-        report_in_view(exported.scene, depsgraph.scene, reporter)
+        report_in_view(exported.scene, reporter)
         self._images.sweep()
         self._meshes.sweep()
         self._scene = exported.scene

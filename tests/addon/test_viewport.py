@@ -169,9 +169,9 @@ def test_settings_start_samples_again_and_export_nothing(motion: Any) -> None:
 
 def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: Any) -> None:
     assert motion["text"] == [
-        "1 thing is not shown as set: scene 'Scene': in 3D views shadow catchers are shown as they are. Fix: render it"
+        "1 thing is not shown as set: shadow catchers are shown as they are in 3D views. Fix: render the picture"
     ]
-    assert motion["output"].count("Warning: Pivot: scene 'Scene'") == 1
+    assert motion["output"].count("Warning: Pivot: shadow catchers") == 1
 
 
 def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:

@@ -34,8 +34,8 @@ exported: list[float] = []  # when a mesh was
 
 def watch_pivot() -> None:
     module: Any = sys.modules["pivot.viewport"]
-    scene: Any = sys.modules["pivot.export.scene"]
-    draw, start, arrays = module.Viewport.draw, module.Viewport._start, scene.mesh_arrays
+    groups: Any = sys.modules["pivot.export.groups"]
+    draw, start, arrays = module.Viewport.draw, module.Viewport._start, groups.mesh_arrays
 
     def watched_draw(*arguments: Any) -> None:
         since_s = time.perf_counter()
@@ -50,7 +50,7 @@ def watch_pivot() -> None:
         exported.append(time.monotonic())
         return arrays(mesh)
 
-    module.Viewport.draw, module.Viewport._start, scene.mesh_arrays = watched_draw, watched_start, watched_arrays
+    module.Viewport.draw, module.Viewport._start, groups.mesh_arrays = watched_draw, watched_start, watched_arrays
 
 
 def grid(z: float) -> Any:

@@ -35,8 +35,8 @@ class Watch:
     def __init__(self) -> None:
         self.meshes = self.exports = 0
         module: Any = sys.modules["pivot.viewport"]
-        scene: Any = sys.modules["pivot.export.scene"]
-        export, arrays = module.Viewport._export, scene.mesh_arrays
+        groups: Any = sys.modules["pivot.export.groups"]
+        export, arrays = module.Viewport._export, groups.mesh_arrays
 
         def counted(mesh: Any) -> Any:
             self.meshes += 1
@@ -44,9 +44,9 @@ class Watch:
 
         def watched_export(*arguments: Any) -> None:
             self.exports += 1
-            scene.mesh_arrays = counted
+            groups.mesh_arrays = counted
             export(*arguments)
-            scene.mesh_arrays = arrays
+            groups.mesh_arrays = arrays
 
         module.Viewport._export = watched_export
 
