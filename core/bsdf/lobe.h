@@ -44,7 +44,8 @@ concept DiffuseLobe = requires {
 /// GGX lobes that light samples may follow and what these leave out (of a diffuse lobe, whether it is even enough); and
 /// highlight_probability(), below which u_lobe draws what is no diffuse light; and eval_diffuse(wo, wi), the part of
 /// eval() that is; its Parameters turn_over(mask), which makes them those of the surface's back, and
-/// turn_normals(local_of, mask), which takes normals of theirs out of world space; and is_diffuse, see DiffuseLobe.
+/// turn_normals(local_of, mask), which takes normals of theirs out of world space; and is_diffuse, see
+/// DiffuseLobe; and is_of_strands, of surfaces that are thinner than pixels.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {

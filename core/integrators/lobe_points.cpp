@@ -17,6 +17,8 @@ struct PointCounts {
     std::uint32_t fewest, most;
 };
 constexpr PointCounts followed{16, 256}, sought{128, 1024};
+/// Of what is thinner than a pixel, which shows the mean of many places.
+constexpr PointCounts of_strands{16, 16};
 
 /// A direction, and what light from there adds.
 struct WeightedPoint {
@@ -43,6 +45,14 @@ void add_points(const Light& light, const LightSampler& sampler, const Vertex& v
     if (const auto place = intersect_light(light, point.position, wi))
         result.push_back({wi, place->distance_m * shadow_reach,
                           eval(lobe, wi_local) * place->radiance * (balance(pdf, sampler.pdf_omega(*place)) / pdf)});
+}
+
+bool is_of_strands(const Surface& surface) {
+    bool result = false;
+    for_each_lobe(surface, [&]<class L>(const L&, const LobeOf<float>&, bool) {
+        if constexpr (requires { requires L::is_of_strands; }) result = true;
+    });
+    return result;
 }
 
 Vec3f lobe_numbers(const ShadowPoints& points, PointSet set, std::uint32_t k, std::uint32_t count) {
@@ -93,7 +103,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
     const LightSampler sampler(light, point, lobe, LightSampling::joint);
     const Vertex vertex{{}, point, lobe};
     const float budget = 0.01f * settings.error_budget_percent;
-    const PointCounts& counts = sampler.shares_with_bsdf() ? sought : followed;
+    const PointCounts& counts = is_of_strands(lobe) ? of_strands : sampler.shares_with_bsdf() ? sought : followed;
     LobeReflection result;
     std::vector<WeightedPoint> all;
     for (std::uint32_t count = std::max(points.count(), counts.fewest);; count *= 2) {

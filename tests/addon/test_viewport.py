@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import os
 import shutil
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +18,32 @@ from blender_host import INSIDE, environment
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float32]
-COMMANDS = [shutil.which(name) for name in ("xvfb-run", "blender")]
-pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs xvfb-run and a Blender with a window")
+COMMANDS = [shutil.which(name) for name in ("Xvfb", "blender")]
+pytestmark = pytest.mark.skipif(None in COMMANDS, reason="needs Xvfb and a Blender with a window")
+
+
+@contextmanager
+def screen(folder: Path) -> Iterator[str]:
+    """A display of its own, which is there once the server has told its name: others may start theirs meanwhile."""
+    told, tells = os.pipe()
+    options = ["-screen", "0", "1280x800x24", "-fbdir", str(folder), "-nolisten", "tcp", "-displayfd", str(tells)]
+    server = subprocess.Popen([str(COMMANDS[0]), *options], pass_fds=[tells], stderr=subprocess.DEVNULL)
+    os.close(tells)
+    try:
+        with os.fdopen(told) as line:
+            yield f":{line.readline().strip()}"
+    finally:
+        server.terminate()
+        server.wait()
 
 
 def in_a_window(script: str, folder: Path, *arguments: str) -> Any:
     """What inside/<script>.py, which quits its Blender, wrote to folder/result.json; its output is in folder/output."""
-    screen = ["-a", "-s", f"-screen 0 1280x800x24 -fbdir {folder}"]
-    blender = ["--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
-    command = [COMMANDS[0], *screen, COMMANDS[1], *blender, str(INSIDE / f"{script}.py"), "--", str(folder), *arguments]
-    done = subprocess.run(command, env=environment(folder), capture_output=True, text=True, timeout=150, check=False)
+    blender = [str(COMMANDS[1]), "--factory-startup", "--window-geometry", "0", "0", "640", "400", "--python"]
+    command = [*blender, str(INSIDE / f"{script}.py"), "--", str(folder), *arguments]
+    with screen(folder) as display:
+        settings = environment(folder) | {"DISPLAY": display}
+        done = subprocess.run(command, env=settings, capture_output=True, text=True, timeout=150, check=False)
     output = done.stdout + done.stderr
     (folder / "output").write_text(output)
     assert done.returncode == 0, output

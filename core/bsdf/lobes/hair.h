@@ -52,7 +52,7 @@ struct Hair {
         LobeParameter{"variance", 1, least, most}, LobeParameter{"primary_variance", 1, least, most},
         LobeParameter{"scale", 1, 1e-3f, most},    LobeParameter{"tilt_rad", 1, -1.6f, 1.6f},
         LobeParameter{"ior", 1, 1.0f, most}};
-    static constexpr bool reflects = true, transmits = true, has_closed_form = false;
+    static constexpr bool reflects = true, transmits = true, has_closed_form = false, is_of_strands = true;
     static constexpr std::size_t part_count = 4;  // R, TT, TRT, and what is left
 
     std::array<Vec3<T>, part_count> shares;  ///< of the light, by part

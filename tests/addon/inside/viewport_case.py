@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +66,11 @@ def preview_of(owner: Any) -> Any:
     return np.array(owner.preview.image_pixels_float[:] if width else (), np.float32).reshape(height, width, 4)
 
 
+def is_previewed(owner: Any) -> bool:
+    preview = preview_of(owner)
+    return bool(preview.size and preview[..., 3].max() > 0)
+
+
 def steps() -> Iterator[Callable[[], bool]]:
     window.clear()
     yield window.now  # the window is drawn anew first
@@ -106,9 +112,9 @@ def steps() -> Iterator[Callable[[], bool]]:
         yield window.after(DRAWN_S)
     background.inputs["Color"].default_value = (0, 0, 1, 1)
     previewed = {"red": bpy.data.materials["red"], "world": scene.world}
-    for owner in previewed.values():
+    for owner in previewed.values():  # one after the other: a job that waits for another would hold Python meanwhile
         owner.asset_generate_preview()
-    yield lambda: all(preview_of(owner).size and preview_of(owner)[..., 3].max() > 0 for owner in previewed.values())
+        yield partial(is_previewed, owner)
     previews = {name: preview_of(owner)[..., :3].mean((0, 1)).tolist() for name, owner in previewed.items()}
     window.write({"seen": seen, "previews": previews})
 
