@@ -73,12 +73,31 @@ void choose(const Transparency& surface, const PassageChoice& choice, const Goin
 
 std::uint32_t passed_by(std::uint32_t ray_kind) { return ray_kind / passed_one; }
 
+/// A surface that a ray meets, as long as nothing is known of light that passes it.
+Passage opaque(std::uint32_t ray, const RayHit& hit, std::uint32_t material, std::uint32_t ray_kind) {
+    return {.ray = ray,
+            .hit = hit,
+            .material = material,
+            .ray_kind = ray_kind,
+            .opacity = 1.0f,
+            .shown = 1.0f,
+            .passed = Rgb(0.0f),
+            .only_shines = false};
+}
+
 }  // namespace
 
 std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_passages,
                                    std::span<const StraightRay> rays, std::uint32_t bounce, const PassageChoice& choice,
                                    ProgramMemory& memory) {
     std::vector<Passage> passages;
+    passages.reserve(rays.size());
+    if (!scene.has_transparency()) {
+        for (std::uint32_t i = 0; i < rays.size(); ++i)
+            if (const auto& hit = rays[i].hit)
+                passages.push_back(opaque(i, *hit, scene.material_of(*hit), rays[i].ray_kind));
+        return passages;
+    }
     std::vector<Going> going;
     for (std::uint32_t i = 0; i < rays.size(); ++i)
         if (rays[i].hit) going.push_back({i, *rays[i].hit, Rgb(1.0f), passed_by(rays[i].ray_kind)});
@@ -89,14 +108,9 @@ std::vector<Passage> find_passages(const Scene& scene, std::uint32_t max_path_pa
         for (std::size_t k = 0; k < going.size(); ++k) {
             const auto& [i, hit, worth, passed] = going[k];
             const StraightRay& ray = rays[i];
-            passages.push_back({.ray = i,
-                                .hit = hit,
-                                .material = scene.material_of(hit),
-                                .ray_kind = (ray.ray_kind & ray_kinds) + passed * passed_one,
-                                .opacity = 1.0f,
-                                .shown = 1.0f,
-                                .passed = Rgb(0.0f),
-                                .only_shines = scene.has_transparency() && passed >= max_path_passages});
+            passages.push_back(
+                opaque(i, hit, scene.material_of(hit), (ray.ray_kind & ray_kinds) + passed * passed_one));
+            passages.back().only_shines = passed >= max_path_passages;
             const Passage& passage = passages.back();
             if (passage.only_shines || !scene.shaders()[passage.material].is_transparent()) continue;
             arrivals.push_back({.direction = ray.ray.direction,

@@ -36,6 +36,7 @@ struct StraightRay {
 inline std::vector<StraightRay> straight_rays(std::span<const Ray> camera_rays,
                                               std::span<const std::optional<RayHit>> hits, const PixelWidth& width) {
     std::vector<StraightRay> rays;
+    rays.reserve(hits.size());
     for (std::size_t i = 0; i < hits.size(); ++i)
         rays.push_back({camera_rays[i], hits[i], visible_to_camera, camera_ray, width.at(0.0f), width.per_m});
     return rays;
