@@ -142,14 +142,19 @@ def _named(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, resu
         _read(mesh, attribute, name, result)
 
 
-def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttributes) -> None:
+def attribute_values(attribute: Any) -> Array:
+    """(elements, numbers) of an attribute whose data type is one of VALUES."""
     key, width = VALUES[attribute.data_type]
     dtype = np.float32
     if width == 1 and attribute.data_type != "FLOAT":
         dtype = np.bool_ if attribute.data_type == "BOOLEAN" else np.int32
     raw = np.empty(len(attribute.data) * width, dtype)
     attribute.data.foreach_get(key, raw)
-    values = raw.reshape(-1, width).astype(np.float32)
+    return raw.reshape(-1, width).astype(np.float32)
+
+
+def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttributes) -> None:
+    values = attribute_values(attribute)
     if attribute.domain == "POINT":
         result.vertex_attributes[name] = values
     elif attribute.domain == "CORNER":
@@ -160,7 +165,7 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
         result.corner_attributes[name] = np.repeat(values, sizes, axis=0)
     elif attribute.domain == "EDGE":  # its mean at each vertex
         ends = _edges(mesh).ravel()
-        sums = np.zeros((len(mesh.vertices), width), np.float32)
+        sums = np.zeros((len(mesh.vertices), values.shape[1]), np.float32)
         np.add.at(sums, ends, np.repeat(values, 2, axis=0))
         counts = np.bincount(ends, minlength=len(sums))
         result.vertex_attributes[name] = sums / np.maximum(counts, 1)[:, None].astype(np.float32)

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import VALUES
+from .attributes import VALUES, attribute_values
 from .islands import random_of_numbers
 
 Array = NDArray[np.float32]
@@ -105,13 +105,7 @@ def _add_attributes(arrays: CurveArrays, data: Any, names: frozenset[str]) -> No
 
 
 def _add_attribute(arrays: CurveArrays, attribute: Any, name: str) -> None:
-    key, width = VALUES[attribute.data_type]
-    dtype = np.float32
-    if width == 1 and attribute.data_type != "FLOAT":
-        dtype = np.bool_ if attribute.data_type == "BOOLEAN" else np.int32
-    raw = np.empty(len(attribute.data) * width, dtype)
-    attribute.data.foreach_get(key, raw)
-    values = raw.reshape(-1, width).astype(np.float32)
+    values = attribute_values(attribute)
     if attribute.domain == "POINT":
         arrays.point_attributes[name] = values
     else:

@@ -30,3 +30,8 @@ def read_passes(path: Path) -> dict[str, NDArray[np.float32]]:
         group: np.stack([parts[c] for c in sorted(parts, key=lambda c: order.index(c.upper()))], axis=-1)
         for group, parts in grouped.items()
     }
+
+
+def passes_by_name(path: Path) -> dict[str, NDArray[np.float32]]:
+    """The same of a file with one layer, by "pass"."""
+    return {name.split(".")[1]: values for name, values in read_passes(path).items()}

@@ -9,7 +9,7 @@ import numpy as np
 import OpenEXR
 import pytest
 from blender_host import Host
-from exr import read_passes, read_rgb
+from exr import passes_by_name, read_rgb
 from numpy.typing import NDArray
 
 
@@ -70,7 +70,7 @@ def test_nobody_who_did_not_ask_hears_of_it(case: tuple[Path, Any]) -> None:
 
 def test_denoising_data_is_blenders(case: tuple[Path, Any]) -> None:
     folder, result = case
-    passes = {name.removeprefix("ViewLayer."): pixels for name, pixels in read_passes(folder / "data.exr").items()}
+    passes = passes_by_name(folder / "data.exr")
     assert result["passes"] == ["Noisy Image", "Denoising Normal", "Denoising Albedo", "Denoising Depth"]
     for name in result["passes"]:
         assert np.any(passes[name] != 0), name

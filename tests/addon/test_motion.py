@@ -5,16 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import flip_evaluator
 import numpy as np
 import pytest
+from beside_cycles import assert_alike
 from blender_host import Host
-from exr import read_passes, read_rgb
+from exr import passes_by_name
 
 PICTURES = ("objects", "curve", "camera", "deformed", "instances")
 ANALYTIC = ("objects", "deformed")
-TOLERANCE = 0.01  # of the mean
-FLIP = 0.05
 MIDDLE = {"START": 2.25, "CENTER": 2.0, "END": 1.75}  # a shutter of half a frame about frame 2
 
 
@@ -34,11 +32,7 @@ def cases(host: Host, folder: Path) -> Any:
 )
 def test_pictures_are_cycles(cases: Any, folder: Path, integrator: str, name: str) -> None:
     assert cases["pictures"] == list(PICTURES)
-    ours = read_rgb(folder / f"{name}_{integrator}.exr")
-    cycles = read_rgb(folder / f"{name}{'_direct' if 'direct' in integrator else ''}_CYCLES.exr")
-    assert ours.mean(axis=(0, 1)) == pytest.approx(cycles.mean(axis=(0, 1)), rel=TOLERANCE)
-    shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]
-    assert flip_evaluator.evaluate(*shown, "LDR")[1] <= FLIP
+    assert_alike(folder, name, integrator)
 
 
 @pytest.mark.parametrize("position", list(MIDDLE))
@@ -80,10 +74,7 @@ def test_what_is_not_blurred_is_said_by_name(cases: Any) -> None:
 
 def test_vectors_are_cycles(cases: Any, folder: Path) -> None:
     """But at edges, where a pixel has the mean of what moves otherwise."""
-    ours, cycles = (
-        next(values for name, values in read_passes(folder / f"vectors_{who}.exr").items() if name.endswith("Vector"))
-        for who in ("PIVOT", "CYCLES")
-    )
+    ours, cycles = (passes_by_name(folder / f"vectors_{who}.exr")["Vector"] for who in ("PIVOT", "CYCLES"))
     around = np.lib.stride_tricks.sliding_window_view(cycles, (3, 3), axis=(0, 1))
     is_even = np.ptp(around, axis=(3, 4)).max(axis=2) < 1
     off = np.abs(ours - cycles).max(axis=2)[1:-1, 1:-1][is_even]

@@ -10,7 +10,7 @@ import OpenEXR
 import pytest
 from beside_cycles import FLIP, flip
 from blender_host import Host
-from exr import read_passes
+from exr import passes_by_name
 
 LIGHT = {
     f"{kind}{part}": f"{kind}Col" for kind in ("Diff", "Gloss", "Trans") for part in ("Dir", "Ind")
@@ -55,13 +55,9 @@ def headers(folder: Path) -> dict[str, dict[str, str]]:
 def pictures(folder: Path) -> dict[str, Passes]:
     old_names = {new: old for old, new in NAMES_5_0.items()}
     return {
-        engine: {old_names.get(name, name): values for name, values in _passes(folder / f"{engine}.exr").items()}
+        engine: {old_names.get(name, name): values for name, values in passes_by_name(folder / f"{engine}.exr").items()}
         for engine in ("CYCLES", "MONTE_CARLO", "ANALYTIC")
     }
-
-
-def _passes(path: Path) -> Passes:
-    return {name.split(".")[1]: values for name, values in read_passes(path).items()}
 
 
 def colored(passes: Passes, name: str) -> np.ndarray:

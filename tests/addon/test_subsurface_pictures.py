@@ -5,14 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import flip_evaluator
 import numpy as np
 import pytest
+from beside_cycles import FLIP, TOLERANCE, flip, read_both
 from blender_host import Host
-from exr import read_rgb
-
-TOLERANCE = 0.01  # of the mean
-FLIP = 0.05
 
 
 @pytest.fixture(scope="module")
@@ -23,12 +19,8 @@ def pictures(host: Host, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path
 
 
 def compare(folder: Path, name: str) -> dict[str, Any]:
-    ours, cycles = (read_rgb(folder / f"{name}_{engine}.exr") for engine in ("MONTE_CARLO", "CYCLES"))
-    shown = [np.clip(picture, 0, 1).astype(np.float32) ** np.float32(1 / 2.2) for picture in (cycles, ours)]
-    return {
-        "mean": ours.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1)),
-        "flip": flip_evaluator.evaluate(*shown, "LDR")[1],
-    }
+    ours, cycles = read_both(folder, name, "MONTE_CARLO")
+    return {"mean": ours.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1)), "flip": flip(ours, cycles)}
 
 
 def test_pictures_are_cycles(pictures: tuple[Path, list[str]]) -> None:
