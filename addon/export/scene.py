@@ -88,7 +88,7 @@ class _Exporter:
         self._check_cancel = check_cancel
         self._links = LightLinks.read(context.depsgraph, context.reporter)
         self._makes = GroupMaker(context, check_cancel, MaterialTable(context, world_shines), meshes)
-        self._visibles: dict[tuple[int, int], Visible] = {}  # by the original object and its instancer
+        self._of_objects: dict[tuple[int, int], dict[str, Any]] = {}  # by the original object and its instancer
         self._groups: dict[tuple[Any, ...], list[Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[Group, list[int]] = defaultdict(list)
@@ -131,14 +131,17 @@ class _Exporter:
 
     def _of_object(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> dict[str, Any]:
         """What a Group has of the object and its instancer, whatever its mesh."""
-        links = self._links.masks(blender_object)
-        self._warn_of_links(blender_object, links)
-        return {
-            "visible": self._visible(blender_object, instancer),
-            "light_group": light_group(self._context.depsgraph.view_layer, blender_object, instancer),
-            "links": links,
-            "link_sets": self._links.sets(instancer or blender_object),
-        }
+        key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
+        if key not in self._of_objects:
+            links = self._links.masks(blender_object)
+            self._warn_of_links(blender_object, links)
+            self._of_objects[key] = {
+                "visible": self._visible(blender_object, instancer),
+                "light_group": light_group(self._context.depsgraph.view_layer, blender_object, instancer),
+                "links": links,
+                "link_sets": self._links.sets(instancer or blender_object),
+            }
+        return self._of_objects[key]
 
     def _warn_of_links(self, blender_object: bpy.types.Object, links: tuple[int, int]) -> None:
         if links != NO_LINKS and self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
@@ -149,15 +152,11 @@ class _Exporter:
             )
 
     def _visible(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> Visible:
-        key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
-        if key not in self._visibles:
-            self._visibles[key] = found = visible(blender_object, instancer, self._context.depsgraph.view_layer)
-            is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
-            if is_analytic and blender_object.type == "MESH" and {"DIFFUSE", "GLOSSY"} & set(found.hidden_from):
-                self._warn(
-                    blender_object, "in the analytic integrator what comes from it lights all. Fix: use Monte Carlo"
-                )
-        return self._visibles[key]
+        found = visible(blender_object, instancer, self._context.depsgraph.view_layer)
+        is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
+        if is_analytic and blender_object.type == "MESH" and {"DIFFUSE", "GLOSSY"} & set(found.hidden_from):
+            self._warn(blender_object, "in the analytic integrator what comes from it lights all. Fix: use Monte Carlo")
+        return found
 
     def _place(
         self, make: _MakeGroups, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int

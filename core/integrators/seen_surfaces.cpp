@@ -25,12 +25,15 @@ struct OcclusionRay {
     float weight;
 };
 
-/// Of a lane's surface, by the cosine about its shading normal. [Cycles 4.5 integrator/shade_surface.h]
-OcclusionRay occlusion_ray(const SurfacePointOf<Batch>& points, std::size_t lane, const Sampler& sampler,
-                           const RenderSettings& settings, std::size_t sample, float weight) {
-    const SurfacePoint point = unpack<SurfacePointOf>(points)[lane];
+/// By the cosine about the shading normal. [Cycles 4.5 integrator/shade_surface.h]
+OcclusionRay occlusion_ray(const SurfacePoint& point, const Sampler& sampler, const RenderSettings& settings,
+                           std::size_t sample, float weight) {
     const Vec3f wi = point.frame.to_world(sample_cosine_hemisphere(sampler.point(occlusion_dimension)));
-    return {{.origin = point.ray_origin(wi), .direction = wi, .near_m = 0.0f, .far_m = settings.occlusion_distance_m},
+    return {{.origin = point.ray_origin(wi),
+             .direction = wi,
+             .near_m = 0.0f,
+             .far_m = settings.occlusion_distance_m,
+             .time = point.time},
             sample,
             weight};
 }
@@ -203,6 +206,9 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 passing = store(mean_component(transparency_of(scene, arrivals, 0, memory).color));
             const ArrivalBatch batch = make_arrivals(scene, arrivals, 0, memory);
             const auto colors = unpack<ColorPartsOf>(color_parts(make_surface(batch.material, batch.point.wo_local)));
+            const bool sees_occlusion = !passes.empty() && settings.occlusion_distance_m > 0.0f;
+            std::array<SurfacePoint, batch_size> points;
+            if (sees_occlusion) points = unpack<SurfacePointOf>(batch.point);
             for (std::size_t i = 0; i < of_batch.size(); ++i) {
                 const Seen& s = of_batch[i];
                 const float weight = mean_component(s.worth) * (1.0f - std::min(passing[i], 1.0f));
@@ -216,8 +222,8 @@ void see_surfaces(const Scene& scene, const RenderSettings& settings, std::span<
                 pass.glossy_color += s.worth * colors[i].glossy;
                 pass.transmission_color += s.worth * colors[i].transmission;
                 pass.nearness += weight * nearness_of(settings.mist, s.arrival.hit.distance_m);
-                if (settings.occlusion_distance_m > 0.0f)
-                    occlusion_rays.push_back(occlusion_ray(batch.point, i, samplers[s.ray], settings, s.ray, weight));
+                if (sees_occlusion)
+                    occlusion_rays.push_back(occlusion_ray(points[i], samplers[s.ray], settings, s.ray, weight));
                 if (!s.is_told) continue;
                 pass.uv = uv_of(scene, settings.uv_attribute, s.arrival.hit);
                 if (tells_motion) tell_motion(scene, s.arrival, pass);

@@ -8,19 +8,14 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot
+from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
 CASES = {"over_world": (False, False), "over_nothing": (True, False), "beside": (True, True)}
 
 
 def main(folder: Path) -> Any:
-    parts.clear()
-    parts.size(64, 48)
-    parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
-    clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-    ground = parts.quad("ground", material=clay)
-    ground.scale = (4, 4, 1)
+    _, ground = on_clay()
     ground.is_shadow_catcher = True
     red, _ = parts.shaded("red", "ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1, 1))
     _ball("red", (-1.2, 0, 1), red)
@@ -31,9 +26,6 @@ def main(folder: Path) -> Any:
     panel.scale = (0.5, 0.5, 1)
     parts.light("key", "POINT", (-3, -2, 3), energy=200, **SPHERE)
     parts.world((0.2, 0.25, 0.3))
-    settings = bpy.context.scene.render.image_settings
-    if hasattr(settings, "media_type"):  # from Blender 5.0
-        settings.media_type = "MULTI_LAYER_IMAGE"
     for name, (is_transparent, has_pass) in CASES.items():
         bpy.context.scene.render.film_transparent = is_transparent
         bpy.context.view_layer.cycles.use_pass_shadow_catcher = has_pass

@@ -188,6 +188,17 @@ def _ball(name: str, location: tuple[float, float, float], material: Any) -> Any
     return ball
 
 
+def on_clay(half_extents_m: tuple[float, float] = (4, 4)) -> tuple[Any, Any]:
+    """An empty scene but for a camera above a diffuse ground: its material, and the ground."""
+    parts.clear()
+    parts.size(64, 48)
+    parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
+    clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
+    ground = parts.quad("ground", material=clay)
+    ground.scale = (*half_extents_m, 1)
+    return clay, ground
+
+
 def _cycles(path: Path, bounces: int, samples: int = CYCLES_SAMPLES, file_format: str = "OPEN_EXR") -> None:
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -228,6 +239,8 @@ def directly_by_both(folder: Path, name: str, samples: int = 0, is_analytic: boo
 
 def _save(path: Path, file_format: str = "OPEN_EXR") -> None:
     render = bpy.context.scene.render
+    if hasattr(render.image_settings, "media_type"):  # from Blender 5.0
+        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if file_format.endswith("MULTILAYER") else "IMAGE"
     render.image_settings.file_format = file_format
     render.image_settings.color_depth = "32"
     render.filepath = str(path)

@@ -3,13 +3,12 @@ by Pivot."""
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot, _save
+from cycles_cases import SPHERE, _ball, _cycles, _pivot, _save, on_clay
 from visibility_cases import _glossy
 
 WORLDS = {"no_diffuse": "diffuse", "no_glossy": "glossy", "no_transmission": "transmission"}
@@ -19,11 +18,7 @@ CASES = (*WORLDS, "uneven_no_diffuse", "few_world_bounces", "opaque_to_shadows",
 
 def main(folder: Path) -> Any:
     for name in CASES:
-        parts.clear()
-        parts.size(64, 48)
-        parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
-        clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-        parts.quad("ground", material=clay).scale = (4, 4, 1)
+        clay, _ = on_clay()
         _ball("clay", (-2, 0, 0.8), clay).scale = (0.8,) * 3
         _ball("shiny", (0, 0, 0.8), _glossy("shiny", 0.3)).scale = (0.8,) * 3
         glass, node = parts.shaded("glass", "ShaderNodeBsdfGlass", Roughness=0.3)

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot
+from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
 CASES = ("receivers", "blockers", "shining", "many")
@@ -16,11 +16,7 @@ CASES = ("receivers", "blockers", "shining", "many")
 
 def main(folder: Path) -> Any:
     for name in CASES:
-        parts.clear()
-        parts.size(64, 48)
-        parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
-        clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-        parts.quad("ground", material=clay).scale = (4, 4, 1)
+        clay, _ = on_clay()
         _ball("left", (-1.3, 0, 1), clay)
         _ball("right", (1.3, 0, 1), _glossy("shiny", 0.3))
         globals()[f"_{name}"]()

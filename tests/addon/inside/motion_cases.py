@@ -137,9 +137,6 @@ def _vectors(folder: Path) -> None:
     bpy.context.scene.render.use_motion_blur = False
     bpy.context.view_layer.use_pass_vector = True
     bpy.context.scene.frame_set(FRAME)
-    settings = bpy.context.scene.render.image_settings
-    if hasattr(settings, "media_type"):  # from Blender 5.0
-        settings.media_type = "MULTI_LAYER_IMAGE"
     _cycles(folder / "vectors_CYCLES.exr", 0, 16, file_format="OPEN_EXR_MULTILAYER")
     _pivot(folder / "vectors_PIVOT.exr", 0, "JOINT", 16, file_format="OPEN_EXR_MULTILAYER")
 

@@ -8,24 +8,20 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot
+from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
 GROUPS = ("key", "panel", "sky", "nobody's")
 
 
 def main(folder: Path) -> Any:
-    parts.clear()
-    parts.size(64, 48)
-    parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
+    clay, _ = on_clay()
     layer = bpy.context.view_layer
     for name in GROUPS:
         layer.lightgroups.add(name=name)
     for name, kind in (("tint", "COLOR"), ("height", "VALUE")):
         aov = layer.aovs.add()
         aov.name, aov.type = name, kind
-    clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-    parts.quad("ground", material=clay).scale = (4, 4, 1)
     shiny = _glossy("shiny", 0.4)
     _ball("shiny", (-1.3, 0, 1), shiny)
     _ball("ghost", (1.3, 0, 1), _half_seen())
@@ -39,9 +35,6 @@ def main(folder: Path) -> Any:
     world.lightgroup = "sky"
     for data in (clay, shiny, world):
         _give_aovs(data)
-    settings = bpy.context.scene.render.image_settings
-    if hasattr(settings, "media_type"):  # from Blender 5.0
-        settings.media_type = "MULTI_LAYER_IMAGE"
     _cycles(folder / "CYCLES.exr", 2, file_format="OPEN_EXR_MULTILAYER")
     _pivot(folder / "MONTE_CARLO.exr", 2, "JOINT", file_format="OPEN_EXR_MULTILAYER")
     bpy.context.scene.pivot.integrator = "ANALYTIC"

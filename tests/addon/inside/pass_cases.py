@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot
+from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
 LIGHT = tuple(
@@ -19,14 +19,8 @@ PASSES = (*LIGHT, *MATTES, "emit", "environment", "uv", "mist", "object_index", 
 
 
 def main(folder: Path) -> Any:
-    parts.clear()
-    parts.size(64, 48)
-    parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
-    clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-    clay.pass_index = 7
-    ground = parts.quad("ground", material=clay)
-    ground.scale = (4, 6, 1)
-    ground.pass_index = 3
+    clay, ground = on_clay((4, 6))
+    clay.pass_index, ground.pass_index = 7, 3
     uv = ground.data.uv_layers.new(name="UVMap")
     uv.data.foreach_set("uv", [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0])
     _ball("shiny", (-1.3, 0, 1), _glossy("shiny", 0.4)).pass_index = 5
@@ -45,9 +39,6 @@ def main(folder: Path) -> Any:
     layer = bpy.context.view_layer
     for name in PASSES:
         setattr(layer, f"use_pass_{name}", True)
-    settings = bpy.context.scene.render.image_settings
-    if hasattr(settings, "media_type"):  # from Blender 5.0
-        settings.media_type = "MULTI_LAYER_IMAGE"
     _cycles(folder / "CYCLES.exr", 2, file_format="OPEN_EXR_MULTILAYER")
     _pivot(folder / "MONTE_CARLO.exr", 2, "JOINT", file_format="OPEN_EXR_MULTILAYER")
     bpy.context.scene.pivot.integrator = "ANALYTIC"

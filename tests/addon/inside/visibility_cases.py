@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, by_both, directly_by_both
+from cycles_cases import SPHERE, _ball, by_both, directly_by_both, on_clay
 
 ANALYTIC_SAMPLES = 32
 BOUNCES = {"few_bounces": 2, "spread": 0}  # 1 of the others
@@ -17,11 +17,7 @@ LIGHTS, OBJECTS = ("unshadowed", "spread", "excluded", "few_bounces"), ("hidden"
 
 def main(folder: Path) -> Any:
     for name in LIGHTS + OBJECTS:
-        parts.clear()
-        parts.size(64, 48)
-        parts.camera((0, -7, 3.5), (math.radians(66), 0, 0)).data.lens = 38
-        clay, _ = parts.shaded("clay", "ShaderNodeBsdfDiffuse", Color=(0.7, 0.6, 0.5, 1))
-        parts.quad("ground", material=clay).scale = (6, 6, 1)
+        clay, _ = on_clay((6, 6))
         globals()[f"_{name}"](clay)
         by_both(folder, name, BOUNCES.get(name, 1))
         directly_by_both(folder, name, ANALYTIC_SAMPLES, is_analytic=name != "hidden")  # of meshes that shine
