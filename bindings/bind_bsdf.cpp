@@ -7,7 +7,7 @@ namespace pivot::bindings {
 
 namespace {
 
-constexpr Number alpha_spec{.name = "alpha", .low = 0, .open_low = true};
+constexpr Number positive_alpha{.name = "alpha", .low = 0, .open_low = true};
 constexpr Number cos_spec{.name = "cos_theta", .low = 0, .high = 1};
 constexpr Number ior_spec{.name = "ior", .low = 0, .open_low = true};
 
@@ -32,11 +32,11 @@ void register_bsdf(py::module_& bsdf) {
         []<class T>(T alpha, const Vec3<T>& wo, const Vec3<T>& wi) {
             return wi.z > T(0) ? ggx_eval(wo, wi, alpha, alpha) : T(0);
         },
-        alpha_spec, Above{{"wo_local"}}, Direction{"wi_local"});
+        positive_alpha, Above{{"wo_local"}}, Direction{"wi_local"});
     define(
         bsdf, "ggx_pdf", "ggx_pdf(alpha, wo_local, wi_local): the pdf per steradian of ggx_sample.",
         []<class T>(T alpha, const Vec3<T>& wo, const Vec3<T>& wi) { return ggx_pdf_omega(wo, wi, alpha, alpha); },
-        alpha_spec, Above{{"wo_local"}}, Direction{"wi_local"});
+        positive_alpha, Above{{"wo_local"}}, Direction{"wi_local"});
     define(
         bsdf, "ggx_sample",
         "ggx_sample(alpha, wo_local, u): wo_local mirrored at a visible normal, (..., 3); may lie below the surface, "
@@ -44,7 +44,7 @@ void register_bsdf(py::module_& bsdf) {
         "lobe is 0.\n\n"
         "u (..., 2) in [0, 1). [Dupuy23]",
         []<class T>(T alpha, const Vec3<T>& wo, const Vec2<T>& u) { return ggx_sample(wo, alpha, alpha, u); },
-        alpha_spec, Above{{"wo_local"}}, UnitSquare{"u"});
+        positive_alpha, Above{{"wo_local"}}, UnitSquare{"u"});
     define(
         bsdf, "fresnel_dielectric",
         "fresnel_dielectric(cos_theta, ior): unpolarised reflectance, cos_theta (...) in [0, 1]; ior (...) > 0: of the "

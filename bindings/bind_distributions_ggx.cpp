@@ -9,7 +9,7 @@ namespace pivot::bindings {
 namespace {
 
 constexpr Direction wo{{"wo"}}, axis{{"axis"}};
-constexpr Number versine{.name = "versine", .low = 0, .high = 2, .open_low = true, .open_high = true};
+constexpr Number cap_versine{.name = "versine", .low = 0, .high = 2, .open_low = true, .open_high = true};
 constexpr Number alpha_x{.name = "alpha_x", .low = 0, .high = 1, .open_low = true};
 constexpr Number alpha_y{.name = "alpha_y", .low = 0, .high = 1, .open_low = true};
 
@@ -42,7 +42,7 @@ auto points_of() {
             }
             return std::tuple(omega_i, weight);
         },
-        wo, axis, versine, alpha_x, alpha_y);
+        wo, axis, cap_versine, alpha_x, alpha_y);
 }
 
 py::object ggx_cap_points(const py::object& o, const py::object& c, const py::object& h, const py::object& ax,
@@ -66,7 +66,7 @@ cone or leave the upper hemisphere. float32 is within 1e-4 relative for alphas f
             const GgxCap<T> g = checked_cap(o, c, h, ax, ay);
             return std::tuple(integral(g), is_valid(g));
         },
-        wo, axis, versine, alpha_x, alpha_y);
+        wo, axis, cap_versine, alpha_x, alpha_y);
     define(
         distributions, "ggx_cap_sample",
         R"(A direction in a cap by the GGX lobe, its weight D(h) / (4 cos_o) / pdf, and its pdf per steradian.
@@ -77,7 +77,7 @@ omega_i (..., 3) unit, weight (...) and pdf (...). ValueError where ggx_cap_inte
             const GgxCapPoint<T> point = sample(valid_cap(o, c, h, ax, ay), u);
             return std::tuple(point.omega_i, point.weight, point.pdf_omega);
         },
-        wo, axis, versine, alpha_x, alpha_y, UnitSquare{"u"});
+        wo, axis, cap_versine, alpha_x, alpha_y, UnitSquare{"u"});
     define(
         distributions, "ggx_cap_pdf", R"(The density of ggx_cap_sample, per steradian: 0 outside the cap.
 
@@ -85,7 +85,7 @@ Arguments as of ggx_cap_sample, with omega_i: (..., 3) unit for u. Returns (...)
         []<class T>(Vec3<T> o, Vec3<T> c, T h, T ax, T ay, Vec3<T> omega_i) {
             return pdf_omega(valid_cap(o, c, h, ax, ay), omega_i);
         },
-        wo, axis, versine, alpha_x, alpha_y, Direction{{"omega_i"}});
+        wo, axis, cap_versine, alpha_x, alpha_y, Direction{{"omega_i"}});
     distributions.def("ggx_cap_points", ggx_cap_points, R"(A fixed rule of 1, 4, 8 or 16 directions in a cap.
 
 wo, axis: (..., 3) unit; versine: (...) in (0, 2); alpha_x, alpha_y: (...) in (0, 1]. Returns omega_i (..., count, 3) unit

@@ -10,7 +10,7 @@
 namespace pivot::bindings {
 namespace {
 
-constexpr Number alpha_spec{.name = "alpha", .low = double(min_alpha) * (1 - 1e-6), .high = 1};
+constexpr Number shaded_alpha{.name = "alpha", .low = double(min_alpha) * (1 - 1e-6), .high = 1};
 constexpr Number half_angle_spec{.name = "half_angle", .low = 0, .high = 1.5707964, .open_low = true};
 constexpr Number budget_spec{.name = "error_budget", .low = 0, .high = 100, .open_low = true};
 
@@ -74,7 +74,7 @@ py::tuple ggx_sphere_light(const py::object& alpha, const py::object& wo, const 
     budget_spec.check(&error_budget, 1);
     const UpperDirection wo_spec{{"wo"}};
     const Direction axis_spec{"cap_axis"};
-    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), axes(axis_spec, cap_axis);
+    const Input<float> alphas(shaded_alpha, alpha), wos(wo_spec, wo), axes(axis_spec, cap_axis);
     const Input<float> half_angles(half_angle_spec, half_angle);
     const Shape common =
         common_shape({{"alpha", &alphas}, {"wo", &wos}, {"cap_axis", &axes}, {"half_angle", &half_angles}});
@@ -91,7 +91,7 @@ py::tuple ggx_area_light(const py::object& alpha, const py::object& wo, const py
     budget_spec.check(&error_budget, 1);
     const UpperDirection wo_spec{{"wo"}};
     const Vector center_spec{"center"}, u_spec{"half_u"}, v_spec{"half_v"};
-    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), centers(center_spec, center), us(u_spec, half_u),
+    const Input<float> alphas(shaded_alpha, alpha), wos(wo_spec, wo), centers(center_spec, center), us(u_spec, half_u),
         vs(v_spec, half_v);
     const Shape common =
         common_shape({{"alpha", &alphas}, {"wo", &wos}, {"center", &centers}, {"half_u", &us}, {"half_v", &vs}});
@@ -117,7 +117,7 @@ py::tuple ggx_gaussian_light(const py::object& alpha, const py::object& wo, cons
     const UpperDirection wo_spec{{"wo"}};
     const Direction axis_spec{"axis"};
     const Number sharpness_spec{.name = "sharpness", .low = 0};
-    const Input<float> alphas(alpha_spec, alpha), wos(wo_spec, wo), axes(axis_spec, axis);
+    const Input<float> alphas(shaded_alpha, alpha), wos(wo_spec, wo), axes(axis_spec, axis);
     const Input<float> sharpnesses(sharpness_spec, sharpness);
     const Shape common = common_shape({{"alpha", &alphas}, {"wo", &wos}, {"axis", &axes}, {"sharpness", &sharpnesses}});
     return evaluate_batches(common, [&](const auto& gather) {

@@ -11,8 +11,8 @@ namespace pivot::bindings {
 
 namespace {
 
-constexpr Number alpha_spec{.name = "alpha", .low = 1e-3 * (1 - 1e-6), .high = 1};
-constexpr Number cos_spec{.name = "cos_o", .low = 0, .high = 1};
+constexpr Number table_alpha{.name = "alpha", .low = 1e-3 * (1 - 1e-6), .high = 1};
+constexpr Number table_cos{.name = "cos_o", .low = 0, .high = 1};
 constexpr Number eta_spec{.name = "eta", .low = 0, .open_low = true};
 
 /// The values at the nodes of an axis, as the tables' own lookup places them.
@@ -57,7 +57,7 @@ void register_tables(py::module_& tables) {
                                                     static_cast<float>(width), 1.f);
             return std::tuple(Vec3<T>(lobe.pivot_local), static_cast<T>(lobe.delta));
         },
-        alpha_spec, Direction{"wo_local"}, Number{.name = "shift"},
+        table_alpha, Direction{"wo_local"}, Number{.name = "shift"},
         Number{.name = "width", .low = 0, .open_low = true});
     define(
         tables, "ggx_sptd",
@@ -70,7 +70,7 @@ void register_tables(py::module_& tables) {
             return std::tuple(Vec3<T>(lobe.pivot_local), static_cast<T>(lobe.delta), static_cast<T>(lobe.albedo),
                               static_cast<T>(lobe.amplitude()));
         },
-        alpha_spec, Direction{"wo_local"});
+        table_alpha, Direction{"wo_local"});
     define(
         tables, "ggx_ltc_from_node",
         "ggx_ltc_from_node(alpha, wo_local, shift, width_x, width_y, skew): the matrix (..., 3, 3) that a node of the "
@@ -79,7 +79,7 @@ void register_tables(py::module_& tables) {
         []<class T>(T alpha, const Vec3<T>& wo, T shift, T width_x, T width_y, T skew) {
             return rows(ggx_ltc_matrix(alpha, wo, shift, width_x, width_y, skew));
         },
-        alpha_spec, Direction{"wo_local"}, Number{.name = "shift"},
+        table_alpha, Direction{"wo_local"}, Number{.name = "shift"},
         Number{.name = "width_x", .low = 0, .open_low = true}, Number{.name = "width_y", .low = 0, .open_low = true},
         Number{.name = "skew"});
     define(
@@ -93,17 +93,17 @@ void register_tables(py::module_& tables) {
             return std::tuple(rows(Mat3<T>(lobe.lobe_local.m)), static_cast<T>(lobe.albedo),
                               static_cast<T>(lobe.amplitude()));
         },
-        alpha_spec, Direction{"wo_local"});
+        table_alpha, Direction{"wo_local"});
     define(
         tables, "ggx_albedo",
         "ggx_albedo(alpha, cos_o): the integral of GGX BRDF * cos over the hemisphere, F = 1, from the table.",
         []<class T>(T alpha, T cos_o) {
             return static_cast<T>(ggx_albedo(static_cast<float>(alpha), static_cast<float>(cos_o)));
         },
-        alpha_spec, cos_spec);
+        table_alpha, table_cos);
     define(
         tables, "ggx_average_albedo", "ggx_average_albedo(alpha): 2 int E cos dcos of ggx_albedo's E, from the table.",
-        []<class T>(T alpha) { return static_cast<T>(ggx_average_albedo(static_cast<float>(alpha))); }, alpha_spec);
+        []<class T>(T alpha) { return static_cast<T>(ggx_average_albedo(static_cast<float>(alpha))); }, table_alpha);
     define(
         tables, "ggx_dielectric_weight",
         "ggx_dielectric_weight(alpha, cos_o, ior): s such that the GGX lobe under the dielectric Fresnel curve has "
@@ -113,7 +113,7 @@ void register_tables(py::module_& tables) {
             return static_cast<T>(
                 ggx_dielectric_weight(static_cast<float>(alpha), static_cast<float>(cos_o), static_cast<float>(ior)));
         },
-        alpha_spec, cos_spec, Number{.name = "ior", .low = 1});
+        table_alpha, table_cos, Number{.name = "ior", .low = 1});
     define(
         tables, "ggx_glass_albedo",
         "ggx_glass_albedo(alpha, cos_o, eta): (reflected (...), refracted (...)), what a rough dielectric boundary "
@@ -127,7 +127,7 @@ void register_tables(py::module_& tables) {
                 ggx_glass_albedo(static_cast<float>(alpha), static_cast<float>(cos_o), static_cast<float>(eta));
             return std::tuple(static_cast<T>(albedo.reflected), static_cast<T>(albedo.refracted));
         },
-        alpha_spec, cos_spec, eta_spec);
+        table_alpha, table_cos, eta_spec);
     define(
         tables, "ggx_glass_average_albedo",
         "ggx_glass_average_albedo(alpha, eta): 2 int E cos dcos of both of ggx_glass_albedo's together, from the "
@@ -135,7 +135,7 @@ void register_tables(py::module_& tables) {
         []<class T>(T alpha, T eta) {
             return static_cast<T>(ggx_glass_average_albedo(static_cast<float>(alpha), static_cast<float>(eta)));
         },
-        alpha_spec, eta_spec);
+        table_alpha, eta_spec);
 }
 
 }  // namespace pivot::bindings
