@@ -199,7 +199,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
                     return combined
                 return reader.read(session, name)
 
-            fill_layer(result.layers[0], session.width, session.height, reader.named, read)
+            fill_layer(result.layers[0], session.width, session.height, reader.named, read, reader.exposure)
             self.update_result(result)
 
         session.start()

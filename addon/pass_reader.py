@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .named_passes import named_passes, read_named
-from .passes import read_mattes
+from .passes import film_exposure, read_mattes
 from .shadow_catchers import CatcherReader
 
 
@@ -19,6 +19,7 @@ class PassReader:
     def __init__(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, values: dict[str, Any]) -> None:
         """values: the arguments of pivot_core.RenderSettings."""
         self.named = named_passes(view_layer)
+        self.exposure = film_exposure(scene)
         self._catchers = CatcherReader(scene, view_layer, "shadow_catchers" in values)
 
     @property

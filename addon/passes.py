@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
@@ -26,6 +26,7 @@ class Pass:
     settings: str = ""  # the part of bpy.types.ViewLayer that has the switch: "pivot", or "cycles" with its addon
     of_surfaces: bool = False  # kept only where one of them is on
     is_light: bool = False  # that Monte Carlo alone tells apart
+    is_exposed: bool = False  # light, which the film's exposure scales
 
     def blender_name(self, version: tuple[int, ...] = bpy.app.version) -> str:
         return self.name_5_0 if version >= (5, 0) else self.name
@@ -43,7 +44,7 @@ def _of_surfaces(name: str, name_5_0: str, channels: str, kind: str, switch: str
 
 
 def _light(name: str, name_5_0: str, switch: str) -> Pass:
-    return Pass(name, name, name_5_0, "RGB", "COLOR", f"use_pass_{switch}", of_surfaces=True, is_light=True)
+    return replace(_of_surfaces(name, name_5_0, "RGB", "COLOR", switch), is_light=True, is_exposed=True)
 
 
 _DIFFUSE_COLOR = Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "use_pass_diffuse_color")
@@ -51,16 +52,36 @@ _DIFFUSE_COLOR = Pass("DiffCol", "DiffCol", "Diffuse Color", "RGB", "COLOR", "us
 SHADOW_CATCHER = "Shadow Catcher"
 
 PASSES = (
-    Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
+    Pass("Combined", "Combined", "Combined", "RGBA", "COLOR", "use_pass_combined", is_exposed=True),
     Pass("Depth", "Depth", "Depth", "Z", "VALUE", "use_pass_z"),
     Pass("Normal", "Normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
     Pass("Position", "Position", "Position", "XYZ", "VECTOR", "use_pass_position"),
     _DIFFUSE_COLOR,
-    Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit"),
-    Pass("VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles"),
-    Pass("VolumeInd", "VolumeInd", "Volume Indirect", "RGB", "COLOR", "use_pass_volume_indirect", "cycles"),
-    Pass("Indirect", "Indirect", "Indirect", "RGB", "COLOR", "use_pass_indirect", "pivot"),
-    Pass("Noisy Image", "Noisy Image", "Noisy Image", "RGBA", "COLOR", "denoising_store_passes", "cycles"),
+    Pass("Emit", "Emit", "Emission", "RGB", "COLOR", "use_pass_emit", is_exposed=True),
+    Pass(
+        "VolumeDir", "VolumeDir", "Volume Direct", "RGB", "COLOR", "use_pass_volume_direct", "cycles", is_exposed=True
+    ),
+    Pass(
+        "VolumeInd",
+        "VolumeInd",
+        "Volume Indirect",
+        "RGB",
+        "COLOR",
+        "use_pass_volume_indirect",
+        "cycles",
+        is_exposed=True,
+    ),
+    Pass("Indirect", "Indirect", "Indirect", "RGB", "COLOR", "use_pass_indirect", "pivot", is_exposed=True),
+    Pass(
+        "Noisy Image",
+        "Noisy Image",
+        "Noisy Image",
+        "RGBA",
+        "COLOR",
+        "denoising_store_passes",
+        "cycles",
+        is_exposed=True,
+    ),
     Pass(
         "Denoising Normal", "Denoising Normal", "Denoising Normal", "XYZ", "VECTOR", "denoising_store_passes", "cycles"
     ),
@@ -76,7 +97,7 @@ PASSES = (
     _light("TransInd", "Transmission Indirect", "transmission_indirect"),
     _of_surfaces("GlossCol", "Glossy Color", "RGB", "COLOR", "glossy_color"),
     _of_surfaces("TransCol", "Transmission Color", "RGB", "COLOR", "transmission_color"),
-    _of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"),
+    replace(_of_surfaces("Env", "Environment", "RGB", "COLOR", "environment"), is_exposed=True),
     _of_surfaces("AO", "Ambient Occlusion", "RGB", "COLOR", "ambient_occlusion"),
     _of_surfaces("UV", "UV", "UVA", "VECTOR", "uv"),
     _of_surfaces("Vector", "Vector", "XYZW", "VECTOR", "vector"),
@@ -179,21 +200,38 @@ def channel_count(view_layer: bpy.types.ViewLayer) -> int:
     return of_mattes + of_named + sum(len(entry.channels) for entry in PASSES if entry.is_on(view_layer))
 
 
+def film_exposure(scene: bpy.types.Scene) -> float:
+    """What light is multiplied by before it becomes a picture: Cycles' own setting, 1 where there is no Cycles."""
+    return scene.cycles.film_exposure if hasattr(scene, "cycles") else 1.0
+
+
+def exposed(pixels: NDArray[np.float32], exposure: float) -> NDArray[np.float32]:
+    """Colours, (height, width, 3 or 4), as bright as the film's exposure makes them."""
+    return pixels if exposure == 1 else pixels * np.array([exposure] * 3 + [1.0], np.float32)[: pixels.shape[-1]]
+
+
 def fill_layer(
-    layer: Any, width: int, height: int, named: list[NamedPass], read: Callable[[str], NDArray[np.float32]]
+    layer: Any,
+    width: int,
+    height: int,
+    named: list[NamedPass],
+    read: Callable[[str], NDArray[np.float32]],
+    exposure: float,
 ) -> None:
     """Write what has been rendered into every pass of a bpy.types.RenderLayer.
 
     read: takes the core's pass name, that of mattes or of a named pass; returns (height, width, channels) float32,
-    bottom row first. A pass that is not Pivot's (Freestyle's, say) becomes zero.
+    bottom row first. exposure: of the film. A pass that is not Pivot's (Freestyle's, say) becomes zero.
     """
+    exposures = {entry.blender_name(): exposure for entry in PASSES if entry.is_exposed}
+    exposures |= {entry.name: exposure for entry in named if entry.is_light_group}
     core_names = {entry.blender_name(): entry.core_name for entry in PASSES}
     core_names |= {target.name: target.name for target in layer.passes if target.name.startswith("Crypto")}
     core_names |= {entry.name: entry.name for entry in named}
     if any(entry.of_surfaces and entry.blender_name() in layer.passes for entry in PASSES):
         core_names[_DIFFUSE_COLOR.blender_name()] = "Diffuse Color"  # what the light passes are to be multiplied by
     pixels = [
-        np.ravel(read(core_names[target.name]))
+        np.ravel(exposed(read(core_names[target.name]), exposures.get(target.name, 1.0)))
         if target.name in core_names
         else np.zeros(width * height * target.channels, np.float32)
         for target in layer.passes

@@ -15,13 +15,14 @@ from . import core, denoise
 from .export.images import ImageCache
 from .export.mesh_cache import MeshCache
 from .export.scene import export_scene
+from .passes import exposed, film_exposure
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
 from .shadow_catchers import report_in_view
 from .viewport_denoise import ViewportDenoiser
 from .viewport_draw import Picture, draw_picture
 from .viewport_pace import Pace
-from .viewport_passes import as_colours, core_name
+from .viewport_passes import as_colours, core_name, is_light
 from .viewport_view import Corners, View, local_parts, shows_all, view_of
 
 _POLL_S = 0.005  # how soon a first picture is seen to be there
@@ -65,6 +66,7 @@ class Viewport:
         self._samples_read = 0  # of the session
         self._read_s = 0.0
         self._pass = "COMBINED"  # that is shown
+        self._exposure = 1.0  # of the film, as shown
         self._picture: Picture | None = None
         self._is_watched = False
 
@@ -134,9 +136,9 @@ class Viewport:
 
     def _choose(self, space: bpy.types.SpaceView3D, scene: bpy.types.Scene) -> None:
         """Take over what of a session is to be shown."""
-        choice = space.shading.pivot.render_pass, denoise.viewport_mode_of(scene)
-        if choice != (self._pass, self._mode):
-            self._pass, self._mode = choice
+        choice = space.shading.pivot.render_pass, denoise.viewport_mode_of(scene), film_exposure(scene)
+        if choice != (self._pass, self._mode, self._exposure):
+            self._pass, self._mode, self._exposure = choice
             self._samples_read, self._is_clean = 0, False
             self._denoiser.forget()
 
@@ -211,6 +213,8 @@ class Viewport:
         return self._samples_read == 0 or has_ended or time.monotonic() > self._read_s + self._pace.redraw_s
 
     def _show(self, pixels: Any) -> None:
+        if is_light(self._pass):
+            pixels = exposed(pixels, self._exposure)
         self._picture = Picture(pixels, self._view, self._covers_px)
 
     def _awaits_first_picture(self, finished: bool) -> bool:

@@ -33,6 +33,11 @@ def core_name(shown: str) -> str:
     return _CORE_NAMES[shown]
 
 
+def is_light(shown: str) -> bool:
+    """Whether the film's exposure scales the pass."""
+    return shown in {"COMBINED", "EMISSION", "INDIRECT"}
+
+
 def as_colours(shown: str, values: NDArray[np.float32]) -> NDArray[np.float32]:
     """(height, width, 4) of what the core gives for a pass, (height, width, channels)."""
     if shown == "COMBINED":

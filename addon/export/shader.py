@@ -47,9 +47,8 @@ def grey(program: Program) -> Surface:
 def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
     """What a material's node tree stands for."""
     output = output_socket(tree, "Surface")
-    if output is None or not output.socket.is_linked:
-        owner.reporter.warn(f"{owner.name}: nothing is linked to the Surface of its output, it is shown as grey")
-        return grey(owner.program)
+    if output is None:  # as in Cycles, and as where nothing is linked to it
+        return Surface.of(owner.program)
     _leave_out(output, owner)
     try:
         displacement = output.input("Displacement")
@@ -97,6 +96,8 @@ def _shader(target: Socket, owner: Owner) -> Surface:
     feed = source(target)
     if feed is None or not feed.socket.is_output:
         return Surface.of(owner.program, opacity=owner.program.number(0.0))
+    if feed.socket.type != "SHADER":  # a colour or number shines, as in Cycles
+        return Surface.of(owner.program, emission=colour(target, owner, unknown=1.0))
     evaluate = _SHADERS.get(feed.node.type)
     if evaluate is not None:
         _leave_out(feed, owner)

@@ -90,7 +90,6 @@ SCENE = {
             LeftOut("caustics_reflective", True, "caustics are shown"),
             LeftOut("caustics_refractive", True, "caustics are shown"),
             LeftOut("use_fast_gi", False, "light bounces as it does"),
-            LeftOut("film_exposure", 1.0, "the picture is as bright as with 1"),
             LeftOut("film_transparent_glass", False, "it is opaque", when=_is_transparent),
             LeftOut("pixel_filter_type", "BLACKMAN_HARRIS", "it is Blackman-Harris"),
             LeftOut("filter_width", 1.5, "the output's own Filter Size counts", what="Cycles' Filter Width is"),
@@ -102,7 +101,7 @@ SCENE = {
             LeftOut("use_camera_cull", False, "nothing is culled", when=_is_simplified),
             LeftOut("use_distance_cull", False, "nothing is culled", when=_is_simplified),
         ),
-        used="transparent_max_bounces motion_blur_position",
+        used="film_exposure transparent_max_bounces motion_blur_position",
         # Quality and cost, where Pivot has settings of its own, Max Bounces for volumes too; bakes and
         # debugging.
         no_meaning="""

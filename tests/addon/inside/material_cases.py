@@ -301,6 +301,11 @@ def _special() -> None:
     tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
     use(loop)
     use(parts.material("no_surface")[0])
+    painted, tree = parts.material("painted")
+    rgb = tree.nodes.new("ShaderNodeRGB")
+    rgb.outputs[0].default_value = GREEN
+    tree.links.new(rgb.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    use(painted)
     parts.quad("bare")
     if bpy.app.version < (5, 0):
         plain = bpy.data.materials.new("plain")

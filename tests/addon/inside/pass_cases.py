@@ -1,4 +1,4 @@
-"""Diffuse, glossy and glass balls, a lamp and a panel that shines, with all passes, by Cycles and by Pivot."""
+"""Balls, a lamp and a panel that shines, with all passes and an exposed film, by Cycles and by Pivot."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ def main(folder: Path) -> Any:
     mist = bpy.context.scene.world.mist_settings
     mist.depth, mist.falloff = 6, "QUADRATIC"
     bpy.context.scene.world.light_settings.distance = 1.5
+    bpy.context.scene.cycles.film_exposure = 1.5
     layer = bpy.context.view_layer
     for name in PASSES:
         setattr(layer, f"use_pass_{name}", True)
