@@ -20,6 +20,10 @@ class NamedPass:
     channels: str
     kind: str  # of RenderEngine.register_pass
 
+    @property
+    def is_light_group(self) -> bool:
+        return self.channels == "RGB"
+
 
 def named_passes(view_layer: bpy.types.ViewLayer) -> list[NamedPass]:
     """In the order of the core's."""
@@ -38,7 +42,7 @@ def read_named(session: Any, named: list[NamedPass], name: str) -> NDArray[np.fl
     place = next((place for place, entry in enumerate(named) if entry.name == name), None)
     if place is None:
         return None
-    groups = sum(entry.channels == "RGB" for entry in named)
+    groups = sum(entry.is_light_group for entry in named)
     first = place + max(place - groups, 0)  # of AOVs the core keeps two, from the first one on
     colours = session.read_named(first)
     channels = len(named[place].channels)
