@@ -11,6 +11,7 @@ import importlib.util
 import weakref
 from collections.abc import Callable, Iterator
 from ctypes.util import find_library
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,15 @@ def mode_of(scene: bpy.types.Scene, reporter: Reporter) -> str:
     return str(pivot.denoise)
 
 
+@dataclass(frozen=True)
+class Guides:
+    """What is seen where there is no noise, each (height, width, 3)."""
+
+    albedo: Pixels
+    normal: Pixels
+    is_coarse: bool
+
+
 class Denoiser:
     """It keeps what it last filtered with, for pictures like that one. One thread at a time may use it."""
 
@@ -63,26 +73,37 @@ class Denoiser:
         self._is_quick = is_quick
         self._filter: _Filter | None = None
 
-    def denoised(self, mode: str, read: Callable[[str], Pixels], is_coarse: bool = False) -> Pixels:
+    def denoised(self, mode: str, read: Callable[[str], Pixels], guides: Guides | None = None) -> Pixels:
         """Combined, (height, width, 4): its light without noise, its alpha as it was.
 
         mode: 'ALL', or 'INDIRECT', which keeps direct light as it is: shadows and highlights stay sharp.
-        read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. is_coarse: what is
-        filtered has pixels of twice the edge, which takes a quarter of the time. Raises DenoiserError.
+        read: takes a pass name of pivot_core.Session, whose settings have denoising_passes. guides: those of the
+        picture where they are known. Raises DenoiserError.
         """
-        albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
+        guides = guides or self.guides(read)
         combined = read("Combined")
-        noisy = read("Noisy Image")[..., :3] if mode == "ALL" else read("Noisy Indirect")
-        if is_coarse:
-            albedo, normal, noisy = map(_halved, (albedo, normal, noisy))
-        if not self._is_quick:
-            albedo, normal = self._filtered(albedo=albedo), self._filtered(normal=normal)
-        light = self._filtered(color=noisy, albedo=albedo, normal=normal)
-        if is_coarse:
-            light = _doubled(light, *combined.shape[:2])
+        light = self.light(read("Noisy Image")[..., :3] if mode == "ALL" else read("Noisy Indirect"), guides)
         if mode != "ALL":
             light = combined[..., :3] - read("Indirect") + light
         return np.concatenate([light, combined[..., 3:]], axis=-1)
+
+    def guides(self, read: Callable[[str], Pixels], is_coarse: bool = False) -> Guides:
+        """What a picture's light is filtered by. is_coarse: that has pixels of twice the edge, which takes a quarter of
+        the time. read: as of denoised()."""
+        albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
+        if is_coarse:
+            albedo, normal = _halved(albedo), _halved(normal)
+        if not self._is_quick:
+            albedo, normal = self._filtered(albedo=albedo), self._filtered(normal=normal)
+        return Guides(albedo, normal, is_coarse)
+
+    def light(self, noisy: Pixels, guides: Guides) -> Pixels:
+        """All light of a picture or some, (height, width, 3), without noise."""
+        if not noisy.any():
+            return noisy
+        color = _halved(noisy) if guides.is_coarse else noisy
+        clean = self._filtered(color=color, albedo=guides.albedo, normal=guides.normal)
+        return _doubled(clean, *noisy.shape[:2]) if guides.is_coarse else clean
 
     def _filtered(self, **images: Pixels) -> Pixels:
         """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import sys
 import traceback
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import bpy
 from bpy.app.handlers import persistent
 
 from . import core, denoise
+from .denoised_passes import denoised_passes
 from .export.camera import Frame, export_camera, render_frame
 from .export.context import Context
 from .export.images import ImageCache
@@ -193,13 +195,15 @@ class PivotRenderEngine(bpy.types.RenderEngine):
         progress = Progress(self, samples)
         shown_s, update_s = 0.0, _PREVIEW_UPDATE_S if self.is_preview else _UPDATE_S
 
-        def show(combined: Any = None) -> None:
-            def read(name: str) -> Any:
-                if combined is not None and name == "Combined":
-                    return combined
-                return reader.read(session, name)
+        def read(name: str) -> Any:
+            return reader.read(session, name)
 
-            fill_layer(result.layers[0], session.width, session.height, reader.named, read, reader.exposure)
+        def show(known: Mapping[str, Any] | None = None) -> None:
+            def read_known(name: str) -> Any:
+                return known[name] if known and name in known else read(name)
+
+            layer, exposure = result.layers[0], reader.exposure
+            fill_layer(layer, session.width, session.height, reader.named, read_known, exposure)
             self.update_result(result)
 
         session.start()
@@ -216,7 +220,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             session.stop()
         progress.show(session, last=True)
         try:
-            show(denoise.Denoiser(self.is_preview).denoised(mode, session.read) if mode != "NONE" else None)
+            denoiser = denoise.Denoiser(self.is_preview)
+            show(denoised_passes(denoiser, mode, read, reader.wanted, reader.groups) if mode != "NONE" else None)
         except denoise.DenoiserError as error:  # the picture is there, with its noise
             show()
             reporter.warn(str(error))

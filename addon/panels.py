@@ -126,7 +126,9 @@ class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
             bounced.active = pivot.max_bounces > 0
             bounced.prop(pivot, "clamp_indirect")
             bounced.prop(pivot, "filter_glossy")
-            layout.prop(pivot, "seed")
+            seed = layout.row(align=True)
+            seed.prop(pivot, "seed")
+            seed.prop(pivot, "animate_seed", text="", icon="TIME")
         else:
             layout.prop(pivot, "analytic_method")
             layout.prop(pivot, "error_budget")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .named_passes import named_passes, read_named
-from .passes import film_exposure, read_mattes
+from .passes import PASSES, film_exposure, read_mattes
 from .shadow_catchers import CatcherReader
 
 
@@ -18,8 +18,10 @@ class PassReader:
 
     def __init__(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, values: dict[str, Any]) -> None:
         """values: the arguments of pivot_core.RenderSettings."""
+        self.wanted = {entry.core_name for entry in PASSES if entry.is_on(view_layer)}
         self.named = named_passes(view_layer)
         self.exposure = film_exposure(scene)
+        self.groups = [entry.name for entry in self.named if entry.is_light_group]
         self._catchers = CatcherReader(scene, view_layer, "shadow_catchers" in values)
 
     @property

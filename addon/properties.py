@@ -118,6 +118,12 @@ class PivotSettings(bpy.types.PropertyGroup):
         min=0,
         update=_settings_changed,
     )
+    animate_seed: BoolProperty(
+        name="Animate Seed",
+        description="Other noise in each frame; else what is left of it stands still while the picture moves",
+        default=True,
+        update=_settings_changed,
+    )
     max_bounces: IntProperty(
         name="Max Bounces",
         description="Bounces of indirect light; 0 is direct light only",

@@ -24,7 +24,7 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "integrator": pivot.integrator,
         "samples": samples,
         "adaptive": pivot.adaptive,
-        "seed": pivot.seed,
+        "seed": _seed_of(scene),
         "max_bounces": max_bounces,
         "clamp_indirect": pivot.clamp_indirect,
         "filter_glossy": pivot.filter_glossy,
@@ -41,6 +41,12 @@ def setting_values(scene: bpy.types.Scene, samples: int, max_bounces: int) -> di
         "max_passages": _max_transparent_bounces(scene),
         "max_path_passages": _max_path_passages(scene),
     } | _bounce_limits(pivot)
+
+
+def _seed_of(scene: bpy.types.Scene) -> int:
+    """The artist's in frame 1. By a sum, frame 2 of one seed would be frame 1 of the next."""
+    between_frames = 0x9E3779B1 if scene.pivot.animate_seed else 0
+    return int(scene.pivot.seed + between_frames * (scene.frame_current - 1)) & 0xFFFFFFFF
 
 
 def _bounce_limits(pivot: Any) -> dict[str, Any]:

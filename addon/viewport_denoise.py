@@ -65,7 +65,8 @@ class ViewportDenoiser:
     def _clean(self, mode: str, passes: dict[str, Any], is_coarse: bool, session_number: int) -> None:
         cleaned = None
         try:
-            cleaned = self._denoiser.denoised(mode, passes.__getitem__, is_coarse)
+            guides = self._denoiser.guides(passes.__getitem__, is_coarse)
+            cleaned = self._denoiser.denoised(mode, passes.__getitem__, guides)
         except denoise.DenoiserError as error:
             self._is_broken = True
             print(f"Warning: Pivot: {error}", flush=True)

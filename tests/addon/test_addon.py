@@ -40,6 +40,13 @@ def test_defaults(cases: Any, host: Host) -> None:
     assert cases["defaults"]["threads"] >= 1
 
 
+def test_each_frame_has_noise_of_its_own(cases: Any) -> None:
+    seeds = cases["seeds"]
+    assert seeds["animated"][0] == 3
+    assert seeds["still"] == [3, 3]
+    assert len({*seeds["animated"], *seeds["next"]}) == 4
+
+
 def test_settings(cases: Any, host: Host) -> None:
     assert cases["settings"] == {
         "integrator": "ANALYTIC",

@@ -46,6 +46,52 @@ def test_denoised_pictures_are_nearer_the_converged_one(case: tuple[Path, Any], 
     np.testing.assert_array_equal(alpha(folder, name), alpha(folder, "noisy"))
 
 
+LIGHT = {
+    f"{name} {kind}": f"{name} Color"
+    for name in ("Diffuse", "Glossy", "Transmission")
+    for kind in ("Direct", "Indirect")
+}
+OLD_NAMES = {
+    f"{short}{kind[:3]}": f"{name} {kind}"
+    for short, name in (("Diff", "Diffuse"), ("Gloss", "Glossy"), ("Trans", "Transmission"))
+    for kind in ("Direct", "Indirect", "Color")
+} | {"Emit": "Emission", "Env": "Environment"}
+
+
+def light(folder: Path, name: str) -> dict[str, NDArray[np.float32]]:
+    """The passes of a picture by Blender 5.0's names, light times its colour."""
+    passes = {OLD_NAMES.get(key, key): values for key, values in passes_by_name(folder / f"passes-{name}.exr").items()}
+    return passes | {key: passes[key] * passes[color] for key, color in LIGHT.items()}
+
+
+@pytest.mark.parametrize("name", ["indirect", "all"])
+def test_light_passes_sum_to_the_denoised_picture(case: tuple[Path, Any], name: str) -> None:
+    passes = light(case[0], name)
+    total = passes["Emission"] + passes["Environment"] + sum(passes[key] for key in LIGHT)
+    np.testing.assert_allclose(total, passes["Combined"][..., :3], rtol=1e-4, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", ["indirect", "all"])
+def test_parts_of_light_are_nearer_the_converged_ones(case: tuple[Path, Any], name: str) -> None:
+    folder, result = case
+    if not result["found"]:
+        pytest.skip("no Open Image Denoise here")
+    denoised, noisy, converged = (light(folder, each) for each in (name, "noisy", "converged"))
+    for key in ("Diffuse Indirect", "Indirect", "Combined_key"):
+        errors = [float(np.mean((passes[key] - converged[key]) ** 2)) for passes in (denoised, noisy)]
+        assert errors[0] < 0.7 * errors[1], key
+        assert denoised[key].mean() == pytest.approx(converged[key].mean(), rel=0.03), key
+    assert np.all(denoised["Combined"][..., :3] - denoised["Combined_key"] > -1e-5)  # the other lamp's
+
+
+@pytest.mark.parametrize("name", ["indirect", "all"])
+def test_what_is_no_light_stays_as_it_is(case: tuple[Path, Any], name: str) -> None:
+    denoised, noisy = (passes_by_name(case[0] / f"passes-{each}.exr") for each in (name, "noisy"))
+    np.testing.assert_array_equal(denoised["Combined"][..., 3], noisy["Combined"][..., 3])
+    for key in ("Depth", "CryptoObject00"):
+        np.testing.assert_array_equal(denoised[key], noisy[key])
+
+
 @pytest.mark.parametrize("name", ["coarse", "indirect", "fine"])
 def test_one_denoiser_cleans_pictures_of_any_size(case: tuple[Path, Any], name: str) -> None:
     if not case[1]["found"]:

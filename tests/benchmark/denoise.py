@@ -35,15 +35,16 @@ LADDER = (4, 8, 16, 32, 64)  # Pivot's samples; Cycles takes twice as many
 GOOD_FLIP = 0.03
 
 
-def find_renderers(python: str) -> list[Renderer]:
-    """Pivot by each setting of Denoise, then Cycles with and without."""
-    pivot = {"max_bounces": BOUNCES, "filter_glossy": 0.0, "clamp_indirect": 0.0}
+def find_renderers(python: str, percent: int) -> list[Renderer]:
+    """Pivot by each setting of Denoise, then Cycles with and without. percent: of the scenes' width and height."""
+    pivot = {"max_bounces": BOUNCES, "filter_glossy": 0.0, "clamp_indirect": 0.0, "percent": percent}
     found = [
         Renderer(f"pivot {mode}", "pivot", python, WORKER, pivot | {"denoise": mode})
         for mode in ("NONE", "INDIRECT", "ALL")
     ]
+    cycles = CYCLES | {"use_light_tree": True, "percent": percent}
     for label, settings in (("cycles", {}), ("cycles denoised", DENOISED_CYCLES)):
-        found.append(Renderer(label, "cycles", python, WORKER, CYCLES | {"use_light_tree": True} | settings))
+        found.append(Renderer(label, "cycles", python, WORKER, cycles | settings))
     return found
 
 
@@ -103,11 +104,14 @@ def main() -> None:
     parser.add_argument("--blender", default=sys.executable, help="a Python with bpy that has Pivot")
     parser.add_argument("--scenes", nargs="+", default=list(scenes.SCENES), choices=list(scenes.SCENES))
     parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--percent", type=int, default=100, help="of the pictures' width and height")
     parser.add_argument("--reference-samples", type=int, default=256)
     arguments = parser.parse_args()
-    gallery = Gallery(OUTPUT, scene_key, dict.fromkeys(("pivot", "cycles"), arguments.reference_samples))
+    gallery = Gallery(
+        OUTPUT / f"{arguments.percent}%", scene_key, dict.fromkeys(("pivot", "cycles"), arguments.reference_samples)
+    )
     for scene in arguments.scenes:
-        renderers = find_renderers(arguments.blender)
+        renderers = find_renderers(arguments.blender, arguments.percent)
         for renderer in renderers:
             if renderer.label in {"pivot NONE", "cycles"}:  # references are not denoised
                 gallery.make_reference(renderer, scene)

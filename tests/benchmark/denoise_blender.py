@@ -20,11 +20,28 @@ from blender_render import render_picture
 from numpy.typing import NDArray
 
 
-class Pivot:
-    """settings: scene.pivot's properties."""
+def at_size(build: Callable[[], None], percent: int) -> Callable[[], None]:
+    """percent: of the scene's width and height."""
+
+    def build_and_scale() -> None:
+        build()
+        bpy.context.scene.render.resolution_percentage = percent
+
+    return build_and_scale
+
+
+class Cycles(renderers.Cycles):
+    """settings: scene.cycles' properties, and percent."""
 
     def __init__(self, build: Callable[[], None], settings: dict[str, Any]) -> None:
-        build()
+        super().__init__(at_size(build, settings.pop("percent")), settings)
+
+
+class Pivot:
+    """settings: scene.pivot's properties, and percent."""
+
+    def __init__(self, build: Callable[[], None], settings: dict[str, Any]) -> None:
+        at_size(build, settings.pop("percent"))()
         addon_utils.enable("pivot")
         bpy.context.scene.render.engine = "PIVOT"
         for name, value in settings.items():
@@ -37,4 +54,4 @@ class Pivot:
 
 
 if __name__ == "__main__":
-    worker.main({"cycles": renderers.Cycles, "pivot": Pivot}, scenes.SCENES)
+    worker.main({"cycles": Cycles, "pivot": Pivot}, scenes.SCENES)

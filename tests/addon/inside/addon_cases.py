@@ -13,7 +13,13 @@ from recording import record
 
 
 def main(folder: Path) -> Any:
-    return {"defaults": _defaults(), "settings": _settings(), "layers": _layer_samples(), "toggled": _toggled()}
+    return {
+        "defaults": _defaults(),
+        "settings": _settings(),
+        "seeds": _seeds(),
+        "layers": _layer_samples(),
+        "toggled": _toggled(),
+    }
 
 
 def _defaults() -> Any:
@@ -36,6 +42,24 @@ def _settings() -> Any:
     render.threads_mode, render.threads = "FIXED", 3
     render.filter_size, render.film_transparent = 2.0, True
     return asdict(record().settings)
+
+
+def _seeds() -> dict[str, list[int]]:
+    """Of frames 1 and 2: with Animate Seed, of the seed next to it, and without."""
+    parts.clear()
+    parts.camera()
+    scene = bpy.context.scene
+
+    def of_frames(seed: int, animated: bool) -> list[int]:
+        scene.pivot.seed, scene.pivot.animate_seed = seed, animated
+        seeds = []
+        for frame in (1, 2):
+            scene.frame_set(frame)
+            seeds.append(record().settings.seed)
+        scene.frame_set(1)
+        return seeds
+
+    return {"animated": of_frames(3, True), "next": of_frames(4, True), "still": of_frames(3, False)}
 
 
 def _layer_samples() -> Any:

@@ -44,6 +44,7 @@ def main(folder: Path) -> dict[str, Any]:
     said["analytic"] = render("analytic")
     pivot.integrator, pivot.denoise, pivot.samples = "MONTE_CARLO", "NONE", 2048
     render("converged")
+    _light_passes(folder)
     return {"found": found, "said": said, "passes": _denoising_data(folder), "grey": found and _of_grey_noise()}
 
 
@@ -57,11 +58,33 @@ def _of_grey_noise() -> dict[str, list[float]]:
     read |= {"Noisy Image": combined, "Denoising Albedo": grey, "Denoising Normal": grey}
     denoiser, result = denoise.Denoiser(is_quick=True), {"noisy": combined}
     for name, mode, is_coarse in (("coarse", "ALL", True), ("indirect", "INDIRECT", True), ("fine", "ALL", False)):
-        result[name] = denoiser.denoised(mode, read.__getitem__, is_coarse)
+        guides = denoiser.guides(read.__getitem__, is_coarse)
+        result[name] = denoiser.denoised(mode, read.__getitem__, guides)
     return {
         name: [*picture.shape, float(picture[..., :3].mean()), float(picture[..., :3].std())]
         for name, picture in result.items()
     }
+
+
+def _light_passes(folder: Path) -> None:
+    """Writes passes-NAME.exr of each of SETTINGS and of converged: light by what reflects it and by group, and more."""
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    parts.light("other lamp", "POINT", (-0.5, 0, 0.8), energy=10, shadow_soft_size=0.1)
+    scene.objects["lamp"].lightgroup = layer.lightgroups.add(name="key").name
+    for lobe in ("diffuse", "glossy", "transmission"):
+        for kind in ("direct", "indirect", "color"):
+            setattr(layer, f"use_pass_{lobe}_{kind}", True)
+    layer.use_pass_emit = layer.use_pass_environment = layer.pivot.use_pass_indirect = True
+    layer.use_pass_cryptomatte_object = layer.use_pass_z = True
+    image = scene.render.image_settings
+    if hasattr(image, "media_type"):  # from Blender 5.0
+        image.media_type = "MULTI_LAYER_IMAGE"
+    image.file_format = "OPEN_EXR_MULTILAYER"
+    for name, mode in (SETTINGS | {"converged": "NONE"}).items():
+        scene.pivot.denoise, scene.pivot.samples = mode, 512 if name == "converged" else SAMPLES
+        scene.render.filepath = str(folder / f"passes-{name}.exr")
+        bpy.ops.render.render(write_still=True)
+    scene.pivot.denoise = "NONE"
 
 
 def _denoising_data(folder: Path) -> list[str]:
