@@ -126,7 +126,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
                 values["mattes"] = True
             values |= surface_pass_values(context.scene, scene, depsgraph.view_layer)
             values |= named_pass_values(depsgraph.view_layer)
-            values |= catcher_values(context.scene, scene, context.reporter)
+            values |= catcher_values(context.scene, f"scene '{scene.name}'", scene.pivot.denoise, context.reporter)
             report_passes(scene, depsgraph.view_layer, context.reporter)
             settings = render_settings(context.core, scene, values)
             session = context.core.Session(context.scene, settings)

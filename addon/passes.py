@@ -186,11 +186,6 @@ def report_passes(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, repor
             f"view layer '{view_layer.name}': in the analytic integrator passes of direct and indirect light by "
             "reflection are black. Fix: use Monte Carlo"
         )
-    if scene.pivot.integrator == "ANALYTIC" and len(view_layer.lightgroups):
-        reporter.warn(
-            f"view layer '{view_layer.name}': in the analytic integrator passes of light groups are black. "
-            "Fix: use Monte Carlo"
-        )
 
 
 def channel_count(view_layer: bpy.types.ViewLayer) -> int:

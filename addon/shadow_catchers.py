@@ -12,25 +12,23 @@ from .passes import SHADOW_CATCHER
 from .report import Reporter
 
 
-def catcher_values(core_scene: Any, scene: bpy.types.Scene, reporter: Reporter) -> dict[str, Any]:
-    """The argument of pivot_core.RenderSettings that shadow catchers take; none where there are none."""
+def catcher_values(core_scene: Any, what: str, denoise: str, reporter: Reporter) -> dict[str, Any]:
+    """The argument of pivot_core.RenderSettings that shadow catchers take; none where there are none.
+
+    what: is rendered, for a warning. denoise: as in scene.pivot.
+    """
     if not core_scene.has_shadow_catchers:
         return {}
-    if scene.pivot.integrator == "ANALYTIC":
-        reporter.warn(
-            f"scene '{scene.name}': in the analytic integrator shadow catchers are shown as they are. "
-            "Fix: use Monte Carlo"
-        )
-        return {}
-    if scene.pivot.denoise != "NONE":
-        reporter.warn(f"scene '{scene.name}': a picture with shadow catchers is not denoised")
+    if denoise != "NONE":
+        reporter.warn(f"{what}: a picture with shadow catchers is not denoised")
     return {"shadow_catchers": True}
 
 
-def report_in_view(core_scene: Any, reporter: Reporter) -> None:
-    """Say what a 3D view does not show of them."""
-    if core_scene.has_shadow_catchers:
-        reporter.warn("shadow catchers are shown as they are in 3D views. Fix: render the picture")
+def catcher_picture(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> str:
+    """What is in their place: a name of pivot_core.Session.read_shadow_catchers."""
+    if getattr(getattr(view_layer, "cycles", None), "use_pass_shadow_catcher", False):
+        return "NOTHING"
+    return "ALPHA" if scene.render.film_transparent else "WORLD"
 
 
 def catcher_passes(scene: bpy.types.Scene) -> int:
@@ -44,8 +42,7 @@ class CatcherReader:
 
     def __init__(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, are_told: bool) -> None:
         self.are_told = are_told
-        has_pass = getattr(getattr(view_layer, "cycles", None), "use_pass_shadow_catcher", False)
-        self._picture = "NOTHING" if has_pass else "ALPHA" if scene.render.film_transparent else "WORLD"
+        self._picture = catcher_picture(scene, view_layer)
 
     def read(self, session: Any, name: str) -> NDArray[np.float32] | None:
         """A pass by the core's name, None where it is another's."""

@@ -18,7 +18,7 @@ from .export.scene import export_scene
 from .passes import exposed, film_exposure
 from .report import RenderError, Reporter
 from .settings import render_settings, sample_count, setting_values
-from .shadow_catchers import report_in_view
+from .shadow_catchers import catcher_picture, catcher_values
 from .viewport_denoise import ViewportDenoiser
 from .viewport_draw import Picture, draw_picture
 from .viewport_pace import Pace
@@ -67,6 +67,8 @@ class Viewport:
         self._read_s = 0.0
         self._pass = "COMBINED"  # that is shown
         self._exposure = 1.0  # of the film, as shown
+        self._of_catchers: dict[str, Any] = {}  # settings that the scene's shadow catchers take
+        self._catcher_picture = "WORLD"  # what is shown in their place
         self._picture: Picture | None = None
         self._is_watched = False
 
@@ -86,7 +88,7 @@ class Viewport:
         with _faults_shown(engine):
             if depsgraph.scene.pivot.preview_pause:
                 return
-            self._choose(space, depsgraph.scene)
+            self._choose(space, depsgraph)
             finished = self._take_picture(0.0)
             if self._stale and not self._awaits_first_picture(finished):
                 self._export(depsgraph, space)
@@ -118,7 +120,7 @@ class Viewport:
         self, engine: bpy.types.RenderEngine, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph
     ) -> bool:
         """Take over what there is, and begin what comes next. Returns whether all that is to be shown is there."""
-        self._choose(context.space_data, depsgraph.scene)
+        self._choose(context.space_data, depsgraph)
         finished = self._take_picture(0.0)
         if self._local != local_parts(context.space_data):
             self._stale = True
@@ -134,11 +136,14 @@ class Viewport:
             self._take_picture(self._pace.wait_s)
         return finished and self._denoiser.is_at_rest
 
-    def _choose(self, space: bpy.types.SpaceView3D, scene: bpy.types.Scene) -> None:
+    def _choose(self, space: bpy.types.SpaceView3D, depsgraph: bpy.types.Depsgraph) -> None:
         """Take over what of a session is to be shown."""
-        choice = space.shading.pivot.render_pass, denoise.viewport_mode_of(scene), film_exposure(scene)
-        if choice != (self._pass, self._mode, self._exposure):
-            self._pass, self._mode, self._exposure = choice
+        scene = depsgraph.scene
+        mode = "NONE" if self._of_catchers else denoise.viewport_mode_of(scene)
+        catchers, exposure = catcher_picture(scene, depsgraph.view_layer), film_exposure(scene)
+        choice = space.shading.pivot.render_pass, mode, catchers, exposure
+        if choice != (self._pass, self._mode, self._catcher_picture, self._exposure):
+            self._pass, self._mode, self._catcher_picture, self._exposure = choice
             self._samples_read, self._is_clean = 0, False
             self._denoiser.forget()
 
@@ -158,7 +163,7 @@ class Viewport:
         scene, view = depsgraph.scene, view_of(context, depsgraph)
         samples = scene.pivot.preview_samples or sample_count(depsgraph)
         settings = setting_values(scene, samples, scene.pivot.max_bounces)
-        settings["denoising_passes"] = self._mode != "NONE"
+        settings |= {"denoising_passes": self._mode != "NONE"} | self._of_catchers
         finest_px = engine.get_preview_pixel_size(scene)
         if self._session is None or (view, settings) != (self._view, self._settings):
             self._view, self._settings = view, settings
@@ -180,7 +185,9 @@ class Viewport:
         self._warnings = reporter.warnings
         is_shown = None if shows_all(space) else lambda shown: shown.visible_in_viewport_get(space)
         exported = export_scene(self._core, depsgraph, reporter, lambda: None, self._images, self._meshes, is_shown)
-        report_in_view(exported.scene, reporter)
+        mode = denoise.viewport_mode_of(depsgraph.scene)
+        self._of_catchers = catcher_values(exported.scene, "3D view", mode, reporter)
+        self._choose(space, depsgraph)
         self._images.sweep()
         self._meshes.sweep()
         self._scene = exported.scene
@@ -197,7 +204,7 @@ class Viewport:
             if self._is_first:
                 self._pace.took(session.sampling_s, session.width * session.height)
             if not self._is_clean:
-                self._show(as_colours(self._pass, session.read(core_name(self._pass))))
+                self._show(self._pixels_of(session))
             self._samples_read, self._read_s = samples, time.monotonic()
         cleaned = self._denoiser.take()
         has_what_it_takes = not self._is_first and self._settings["denoising_passes"]
@@ -207,6 +214,11 @@ class Viewport:
                 self._show(cleaned)
             self._denoiser.offer(self._mode, session, samples, finished)
         return finished
+
+    def _pixels_of(self, session: Any) -> Any:
+        if self._pass == "COMBINED" and "shadow_catchers" in self._settings:
+            return session.read_shadow_catchers(self._catcher_picture)
+        return as_colours(self._pass, session.read(core_name(self._pass)))
 
     def _is_due(self, has_ended: bool) -> bool:
         """Whether samples that are new in the session are to be shown now."""

@@ -155,8 +155,14 @@ void register_render(py::module_& module) {
         .def_property_readonly(
             "virtual_lights",
             [](const Session& s) {
-                const VirtualLights& lights = s.virtual_lights();
-                return py::make_tuple(lights.light_count, lights.photon_count, lights.build_s);
+                std::size_t light_count = 0, photon_count = 0;
+                float build_s = 0.0f;
+                for (const VirtualLights& lights : s.virtual_lights()) {
+                    light_count += lights.light_count;
+                    photon_count += lights.photon_count;
+                    build_s += lights.build_s;
+                }
+                return py::make_tuple(light_count, photon_count, build_s);
             },
             "How many virtual lights there are, the photons that they are made of, and the seconds that took; once "
             "samples are done.")

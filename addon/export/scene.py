@@ -20,7 +20,7 @@ from .images import ImageCache, ImageTable
 from .instances import Instances, particle_index
 from .light import export_light
 from .light_groups import light_group
-from .light_links import NO_LINKS, LightLinks
+from .light_links import LightLinks
 from .material import MaterialTable
 from .mesh_cache import MeshCache
 from .visibility import Visible, visible
@@ -110,7 +110,6 @@ class _Exporter:
                 place = told.object_to_world[index].astype(np.float64)
                 seen, links = self._visible(blender_object, instancer), self._links.masks(blender_object)
                 export_light(self._context, blender_object, place, seen, links)
-                self._warn_of_links(blender_object, links)
             elif layer.use_solid and blender_object.type == "MESH":
                 self._place(self._makes.mesh_groups, blender_object, instance, told, index)
             elif _is_shown_as_curves(blender_object, layer):
@@ -133,29 +132,24 @@ class _Exporter:
         """What a Group has of the object and its instancer, whatever its mesh."""
         key = (blender_object.original.as_pointer(), instancer.original.as_pointer() if instancer else 0)
         if key not in self._of_objects:
-            links = self._links.masks(blender_object)
-            self._warn_of_links(blender_object, links)
             self._of_objects[key] = {
                 "visible": self._visible(blender_object, instancer),
                 "light_group": light_group(self._context.depsgraph.view_layer, blender_object, instancer),
-                "links": links,
+                "links": self._links.masks(blender_object),
                 "link_sets": self._links.sets(instancer or blender_object),
             }
         return self._of_objects[key]
 
-    def _warn_of_links(self, blender_object: bpy.types.Object, links: tuple[int, int]) -> None:
-        if links != NO_LINKS and self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
-            kind = "light" if blender_object.type == "LIGHT" else "object"
-            self._context.reporter.warn(
-                f"{kind} '{blender_object.name}': in the analytic integrator it lights everything, and everything "
-                "casts its shadows. Fix: use Monte Carlo"
-            )
-
     def _visible(self, blender_object: bpy.types.Object, instancer: bpy.types.Object | None) -> Visible:
         found = visible(blender_object, instancer, self._context.depsgraph.view_layer)
-        is_analytic = self._context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC"
-        if is_analytic and blender_object.type == "MESH" and {"DIFFUSE", "GLOSSY"} & set(found.hidden_from):
-            self._warn(blender_object, "in the analytic integrator what comes from it lights all. Fix: use Monte Carlo")
+        pivot = self._context.depsgraph.scene_eval.pivot
+        by_virtual_lights = pivot.integrator == "ANALYTIC" and pivot.indirect == "VSGL"
+        if by_virtual_lights and blender_object.type == "MESH":
+            for ray, what in (("DIFFUSE", "none"), ("GLOSSY", "all")):
+                if ray in found.hidden_from:
+                    text = f"in the analytic integrator light that comes by way of it lights {what}"
+                    self._warn(blender_object, f"{text}. Fix: use Monte Carlo")
+                    break
         return found
 
     def _place(

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .curves import CurveArrays, CurveSource, add_strand_attributes, ways_along
+from .strand_cache import cached_positions
 
 Array = NDArray[np.float32]
 
@@ -75,7 +76,7 @@ def strand_arrays(
 
 
 def _positions(system: Any, blender_object: bpy.types.Object, first: int, count: int, steps: int) -> Array:
-    """(count * steps, 3). Blender tells one point a call, in world space: most of the time an export takes."""
+    """(count * steps, 3)."""
 
     def coordinates() -> Iterator[float]:
         of_hair = system.co_hair
@@ -83,7 +84,10 @@ def _positions(system: Any, blender_object: bpy.types.Object, first: int, count:
             for step in range(steps):
                 yield from of_hair(object=blender_object, particle_no=strand, step=step)
 
-    world = np.fromiter(coordinates(), np.float32, 3 * count * steps).reshape(-1, 3)
+    world = cached_positions(blender_object, system, first, count, steps)
+    if world is None:  # a call for each point takes long
+        world = np.fromiter(coordinates(), np.float32, 3 * count * steps)
+    world = world.reshape(-1, 3)
     to_object = np.array(blender_object.matrix_world.inverted_safe(), np.float64)
     return (world @ to_object[:3, :3].T + to_object[:3, 3]).astype(np.float32)
 

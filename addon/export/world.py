@@ -45,7 +45,7 @@ def export_world(context: Context) -> bool:
         _set_aovs(context, tree, owner, world)
         _set_medium(context, tree, owner, world, shines)
     varies = not radiance.is_constant
-    context.scene.set_world_rules(**_rules(context, world, owner))
+    context.scene.set_world_rules(**_rules(world))
     visibility = getattr(world, "cycles_visibility", None)
     if visibility is not None and not visibility.camera:
         radiance = radiance * (1.0 - program.op("ray_is", settings=[CAMERA_RAY]))
@@ -64,16 +64,13 @@ def export_world(context: Context) -> bool:
 _RAYS = {"diffuse": "DIFFUSE", "glossy": "GLOSSY", "transmission": "TRANSMISSION", "scatter": "VOLUME_SCATTER"}
 
 
-def _rules(context: Context, world: bpy.types.World, owner: str) -> dict[str, Any]:
+def _rules(world: bpy.types.World) -> dict[str, Any]:
     """What the world lights, as lamps have it; which a camera sees is its shader's."""
     visibility, cycles = getattr(world, "cycles_visibility", None), getattr(world, "cycles", None)
     if visibility is None or cycles is None:
         return {}
     hidden = [ray for switch, ray in _RAYS.items() if not getattr(visibility, switch)]
-    rules: dict[str, Any] = {"hidden_from": hidden, "max_bounces": cycles.max_bounces}
-    if context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC" and (hidden or cycles.max_bounces == 0):
-        context.reporter.warn(f"{owner}: in the analytic integrator it lights everything. Fix: use Monte Carlo")
-    return rules
+    return {"hidden_from": hidden, "max_bounces": cycles.max_bounces}
 
 
 def _set_aovs(context: Context, tree: bpy.types.NodeTree, name: str, world: bpy.types.World) -> None:

@@ -3,6 +3,7 @@
 #include "core/integrators/analytic_fog.h"
 #include "core/integrators/arrival.h"
 #include "core/integrators/gathered_light.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/look_rays.h"
 #include "core/integrators/shown_surfaces.h"
 #include "core/simd/pack.h"
@@ -13,7 +14,7 @@ namespace {
 /// Appends the surfaces of a batch of those shown, and tells the passes of them. batch_of: their arrivals.
 void see(const Scene& scene, std::uint32_t bounce, std::span<const Arrival* const> batch_of,
          std::span<const Shown> shown, ProgramMemory& memory, std::vector<LookedAt>& surfaces,
-         std::span<Sample> samples) {
+         std::span<Sample> samples, GroupLight* groups) {
     const ArrivalBatch batch = make_arrivals(scene, batch_of, bounce, memory);
     const auto points = unpack<SurfacePointOf>(batch.point);
     SurfaceOf<Batch> surface = make_surface(batch.material, batch.point.wo_local);
@@ -23,8 +24,10 @@ void see(const Scene& scene, std::uint32_t bounce, std::span<const Arrival* cons
     for (std::size_t i = 0; i < batch_of.size(); ++i) {
         const Shown& one = shown[i];
         Sample& sample = samples[one.sample];
-        const Rgb emitted = one.worth * materials[i].emission;
+        const bool shines = is_for(scene, scene.links_of(one.arrival.hit.instance), one.from);
+        const Rgb emitted = shines ? one.worth * materials[i].emission : Rgb(0.0f);
         add_light(emitted, one.is_spread, sample);
+        if (groups) groups->add(one.sample, scene.light_group_of(one.arrival.hit), emitted);
         if (bounce == 0) sample.emission += emitted;
         if (one.is_told) {
             sample.normal = points[i].frame.z;
@@ -38,8 +41,8 @@ void see(const Scene& scene, std::uint32_t bounce, std::span<const Arrival* cons
 /// The surfaces that rays show.
 std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
                               std::span<const LookRay> rays, std::span<const std::optional<RayHit>> hits,
-                              ProgramMemory& memory, std::span<Sample> samples) {
-    std::vector<Shown> shown = shown_surfaces(scene, settings, bounce, rays, hits, memory, samples);
+                              ProgramMemory& memory, std::span<Sample> samples, GroupLight* groups) {
+    std::vector<Shown> shown = shown_surfaces(scene, settings, bounce, rays, hits, memory, samples, groups);
     if (bounce > settings.max_bounces)
         for (Shown& one : shown) one.only_shines = true;
     // A program runs for one material.
@@ -51,21 +54,27 @@ std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings
     const auto arrival_of = [](const Shown& s) -> const Arrival& { return s.arrival; };
     for_each_arrival_batch<Shown>(scene, shown, arrival_of,
                                   [&](std::span<const Arrival* const> batch, std::span<const Shown> of_batch) {
-                                      see(scene, bounce, batch, of_batch, memory, surfaces, samples);
+                                      see(scene, bounce, batch, of_batch, memory, surfaces, samples, groups);
                                   });
     return surfaces;
 }
 
 /// Adds what media bring along rays, and takes from what the rays are worth behind them.
 void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, const ShadowPoints& points,
-                 std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays, std::span<Sample> samples) {
+                 std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays, std::span<Sample> samples,
+                 GroupLight* groups) {
     MediaRay media_ray(scene.media());
     for (std::size_t i = 0; i < rays.size(); ++i) {
         LookRay& look = rays[i];
         Ray ray = look.ray;
         if (hits[i]) ray.far_m = hits[i]->distance_m;
         media_ray.follow(ray, nullptr);
-        const FogLight fog = scatter_analytic(scene, settings, points, media_ray);
+        OnFogLight on_light;
+        if (groups)
+            on_light = [&](std::uint32_t group, const Rgb& light) {
+                groups->add(look.sample, group, look.worth * light);
+            };
+        const FogLight fog = scatter_analytic(scene, settings, bounce, points, media_ray, on_light);
         Sample& sample = samples[look.sample];
         const Rgb scattered = look.worth * fog.scattered, emitted = look.worth * fog.emitted;
         const float weight = mean_component(look.worth);
@@ -86,7 +95,7 @@ void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32
 
 void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
                     std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
-                    SharedReflections& shared, std::span<Sample> samples) {
+                    std::span<SharedReflections> shared, std::span<Sample> samples, GroupLight* groups) {
     ProgramMemory memory;
     const ShadowPoints points(settings, sample_index);
     std::ranges::fill(samples, Sample{});
@@ -102,10 +111,10 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         std::vector<std::uint32_t> met;
         for (const LookRay& look : rays) bare.push_back(look.ray), met.push_back(met_by(look.ray_kind));
         scene.intersect(bare, met, hits);
-        if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples);
-        const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples);
+        if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples, groups);
+        const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples, groups);
         const std::vector<Gathered> light =
-            gather_light(scene, settings, lights, points, bounce, surfaces, pixels, sample_index, shared);
+            gather_light(scene, settings, lights, points, bounce, surfaces, pixels, sample_index, shared, groups);
         rays.clear();
         const Vec2f u = points.facet_point(bounce);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {

@@ -9,15 +9,17 @@
 
 #include "core/film/film.h"
 #include "core/integrators/analytic_lights.h"
+#include "core/integrators/group_light.h"
 #include "core/integrators/shared_reflections.h"
 
 namespace pivot {
 
 /// Camera rays, best neighbours, and the pixel of each, counted as `shared` does. sample_index: which part of the fixed
 /// point sets these rays use; all samples of a pixel together use them whole. lights: of gather_lights(). shared: of
-/// the same samples / bounced_samples_shared. samples: one per ray.
+/// the same samples / bounced_samples_shared, for each of lights.bounced. samples: one per ray. groups: of these; null:
+/// nobody asks.
 void shade_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
                     std::span<const Ray> camera_rays, std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
-                    SharedReflections& shared, std::span<Sample> samples);
+                    std::span<SharedReflections> shared, std::span<Sample> samples, GroupLight* groups);
 
 }  // namespace pivot

@@ -83,7 +83,7 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
                      {&share, weight, 0.0f});
         }
     };
-    ask_points(scene, points.max_passages(), points.first_part(), {&share, 1}, add_points);
+    ask_points(scene, points, points.first_part(), {&share, 1}, add_points);
     return share.diffuse;
 }
 
@@ -130,17 +130,20 @@ void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& bat
     }
 }
 
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                          const MediaRay& ray) {
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
+                          const ShadowPoints& points, const MediaRay& ray, const OnFogLight& on_light) {
     FogLight result;
     result.emitted = ray.emitted();
     const float budget = 0.01f * settings.error_budget_percent;
     MediaRay to_lamp(scene.media());
     for (std::size_t i = 0; i < ray.size(); ++i) {
+        if (on_light) on_light(ray.light_group_in(i), ray.before(i) * ray.emitted_in(i));
         for (std::size_t place = 0; place < scene.lamps().size(); ++place) {
             const Light& light = scene.light(place);
             const LightRules rules = scene.has_light_rules() ? scene.rules_of(place) : LightRules{};
-            if (!(rules.lights & visible_to_scatter)) continue;
+            if (!(rules.lights & visible_to_scatter) || bounce > rules.max_bounces ||
+                !is_receiver(rules.links, ray.link_sets_in(i)))
+                continue;
             LampInFog lamp(light, ray, i, to_lamp);
             if (!lamp.typical().scatters()) break;
             const auto lit = lit_part(light, lamp.part());
@@ -162,10 +165,13 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, co
                     const std::array<Rgb, batch_size> scattered = lamp.at(t);
                     return gather([&](std::size_t k) { return mean_component(abs(scattered[k])); });
                 });
-                if (table.sum() > 0.0f) share = seen_share(scene, light, lamp, ray, table, points);
+                if (table.sum() > 0.0f)
+                    share = seen_share(scene, light, lamp, ray, table, points.past_others(rules.links));
             }
             const float size = mean_component(abs(whole)) * share.value();
-            result.scattered += whole * share.color();
+            const Rgb scattered = whole * share.color();
+            result.scattered += scattered;
+            if (on_light) on_light(scene.light_group_of(place), scattered);
             result.error += size * (error + error_over_lamp);
             result.shadow_variance += sqr(mean_component(abs(whole))) * share.variance();
         }

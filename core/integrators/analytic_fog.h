@@ -14,9 +14,12 @@ struct FogLight {
     float shadow_variance = 0.0f;  ///< what the rays leave of the share that is seen: radiance squared
 };
 
-/// ray: followed without a stream of numbers.
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                          const MediaRay& ray);
+/// Is told what a light group adds.
+using OnFogLight = std::function<void(std::uint32_t group, const Rgb& light)>;
+
+/// After so many bounces. ray: followed without a stream of numbers. on_light: may be empty.
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
+                          const ShadowPoints& points, const MediaRay& ray, const OnFogLight& on_light);
 
 /// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray);

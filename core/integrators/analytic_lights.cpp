@@ -35,39 +35,57 @@ void deposit(const AreaLight& light, float side, std::uint32_t index, std::uint3
 
 AnalyticLights gather_lights(const Scene& scene, const RenderSettings& settings) {
     AnalyticLights lights;
-    lights.exact.assign(scene.lamps().begin(), scene.lamps().end());
-    const std::span<const Light> triangles = scene.triangle_lights();
-    const auto add_rules = [&](std::size_t place) {
-        if (scene.has_light_rules()) lights.rules.push_back(scene.rules_of(place));
+    const auto rules_of = [&](std::size_t place) {
+        return scene.has_light_rules() ? scene.rules_of(place) : LightRules{};
     };
-    for (std::size_t i = 0; i < lights.exact.size(); ++i) add_rules(i);
+    const auto add_exact = [&](std::size_t place) {
+        lights.exact.push_back({scene.light(place), rules_of(place), scene.light_group_of(place)});
+    };
+    for (std::size_t i = 0; i < scene.lamps().size(); ++i) add_exact(i);
+    const std::span<const Light> triangles = scene.triangle_lights();
     double all = 0.0;
     for (const Light& light : triangles) all += power_of(std::get<AreaLight>(light));
     const double wanted = deposits_per_cell * static_cast<double>(settings.virtual_lights);
-    std::array<std::vector<LightDeposit>, 2> deposits;
+    std::vector<std::array<std::vector<LightDeposit>, 2>> deposits;  // of each of lights.emitted
+    const auto deposits_of = [&](std::size_t place) -> std::array<std::vector<LightDeposit>, 2>& {
+        const LightRules rules = rules_of(place);
+        const std::uint32_t group = scene.light_group_of(place);
+        const auto found = std::ranges::find_if(
+            lights.emitted, [&](const EmittedLights& e) { return e.rules == rules && e.group == group; });
+        const auto at = static_cast<std::size_t>(found - lights.emitted.begin());
+        if (at == deposits.size()) {
+            lights.emitted.push_back({.rules = rules, .group = group, .sides = {}});
+            deposits.emplace_back();
+        }
+        return deposits[at];
+    };
+    std::size_t all_deposits = 0;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto& light = std::get<AreaLight>(triangles[i]);
         const double part = all > 0.0 ? power_of(light) / all : 1.0;
         if (part >= part_of_exact) {
-            lights.exact.push_back(light);
-            add_rules(scene.lamps().size() + i);
+            add_exact(scene.lamps().size() + i);
             continue;
         }
         const std::uint32_t owner = scene.shining_triangle(i).instance;
         const CellSpace cells(scene.world_from_object(owner));
         const auto count = static_cast<std::uint32_t>(std::ceil(part * wanted));
-        deposit(light, 1.0f, i, owner, cells, count, deposits[0]);
-        deposit(light, -1.0f, i, owner, cells, count, deposits[1]);
+        auto& [front, back] = deposits_of(scene.lamps().size() + i);
+        deposit(light, 1.0f, i, owner, cells, count, front);
+        deposit(light, -1.0f, i, owner, cells, count, back);
+        all_deposits += count;
     }
-    for (std::size_t side = 0; side < 2; ++side)
-        lights.emitted[side] = build_virtual_lights(deposits[side], settings.virtual_lights);
+    for (std::size_t of = 0; of < deposits.size(); ++of)
+        for (std::size_t side = 0; side < 2; ++side)
+            lights.emitted[of].sides[side] = build_virtual_lights(
+                deposits[of][side], cells_of_share(settings.virtual_lights, deposits[of][side].size(), all_deposits));
     if (settings.indirect == Indirect::virtual_lights) lights.bounced = trace_virtual_lights(scene, settings);
     return lights;
 }
 
 bool gather_the_same(const RenderSettings& settings, const RenderSettings& others) {
     const auto read = [](const RenderSettings& s) {
-        return std::tuple(s.virtual_lights, s.indirect, s.max_bounces, s.max_path_passages);
+        return std::tuple(s.virtual_lights, s.indirect, s.max_bounces, s.max_path_passages, s.light_groups);
     };
     return read(settings) == read(others);
 }

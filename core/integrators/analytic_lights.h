@@ -7,12 +7,25 @@
 
 namespace pivot {
 
+/// A light in closed form.
+struct ExactLight {
+    Light light;
+    LightRules rules{};
+    std::uint32_t group = no_light_group;
+};
+
+/// Triangles of meshes that have rules and a light group in common.
+struct EmittedLights {
+    LightRules rules{};
+    std::uint32_t group = no_light_group;
+    /// On their normals' side, and on the other, of which closed meshes hide one.
+    std::array<VirtualLightTree, 2> sides;
+};
+
 struct AnalyticLights {
-    std::vector<Light> exact;       ///< the scene's lamps, then triangles of meshes that give much of what they all do
-    std::vector<LightRules> rules;  ///< of each of these; empty: there are none
-    /// By the other triangles: on their normals' side, and on the other, of which closed meshes hide one.
-    std::array<VirtualLightTree, 2> emitted;
-    VirtualLights bounced;  ///< if asked for
+    std::vector<ExactLight> exact;  ///< the scene's lamps, then triangles of meshes that give much of what they all do
+    std::vector<EmittedLights> emitted;  ///< the other triangles
+    std::vector<VirtualLights> bounced;  ///< if asked for: of each light group that is told apart, and of the rest
 };
 
 /// Works on all cores; the same scene and settings give the same lights.

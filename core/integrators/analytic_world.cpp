@@ -31,7 +31,8 @@ WorldReflection reflect_whole_world(const Scene& scene, const ShadingPoint& shad
 
 WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& scene, const ShadowPoints& points,
                                    const ShadingPoint& shading, float total) {
-    const auto& [point, surface, bent_cone, is_glass] = shading;
+    const SurfacePoint& point = shading.point;
+    const Base& surface = shading.surface;
     const float diffuse = size_of(whole.diffuse), glossy = size_of(whole.glossy);
     if (!(diffuse + glossy > 0.0f)) return whole;
     const float all = std::max(total, diffuse + glossy);  // which rounding may leave less of
@@ -76,7 +77,7 @@ WorldReflection world_seen_by_rays(const WorldReflection& whole, const Scene& sc
             left_diffuse += probe.diffuse * left * media.through();
             left_glossy += probe.glossy * left * media.through();
         };
-    ask_points(scene, points.max_passages(), 1.0f, {&shares, 1}, add_points, on_seen);
+    ask_points(scene, points, 1.0f, {&shares, 1}, add_points, on_seen);
     WorldReflection seen = whole;
     if (on_seen) {
         const auto of_seen = [](const Rgb& left, const Rgb& seen_color) {

@@ -17,7 +17,8 @@ AreaOutline<Batch> local_outline(const AreaLight& light, const SurfaceBatch& bat
 LobeIntegral<Batch> integrate_ltc(const SurfaceBatch& batch, const AreaLight& light) {
     Lanes plain, cos_oh;
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const auto& [point, surface, bent_cone, is_glass] = *batch.lanes[i];
+        const SurfacePoint& point = batch.lanes[i]->point;
+        const Base& surface = batch.lanes[i]->surface;
         const Vec3f center = point.frame.to_local(light.center - point.position);
         const Vec3f u = point.frame.to_local(light.half_u), v = point.frame.to_local(light.half_v);
         const auto corners = AreaOutline<float>{center, u, v, light.shape}.corners();
@@ -99,7 +100,8 @@ Reflection AreaLightShading::left_by_points(const Scene& scene, const ShadowPoin
         const auto add = [&](const Vec3f& on_light, bool is_rim) {
             for (std::size_t i = 0; i < batch_.count; ++i) {
                 if (!wanted[i]) continue;
-                const auto& [point, surface, bent_cone, is_glass] = *batch_.lanes[i];
+                const SurfacePoint& point = batch_.lanes[i]->point;
+                const Base& surface = batch_.lanes[i]->surface;
                 const Vec3f d = on_light - point.position;
                 const float distance_m = length(d);
                 const Vec3f wi = d / std::max(distance_m, 1e-30f), wi_local = point.frame.to_local(wi);
@@ -122,8 +124,7 @@ Reflection AreaLightShading::left_by_points(const Scene& scene, const ShadowPoin
             add(place_on(light_, of_light.point(PointSet::light_diffuse, k)), false);
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, points.max_passages(), is_spread ? 1.0f : of_light.first_part(), lanes, add_points, {},
-               traces_rays);
+    ask_points(scene, points, is_spread ? 1.0f : of_light.first_part(), lanes, add_points, {}, traces_rays);
     return seen_in_part(reflection_, lanes, points);
 }
 

@@ -11,6 +11,8 @@ class AreaLightShading {
 
     /// Of light that nothing hides.
     const Reflection& reflection() const { return reflection_; }
+    /// To be told what its rules leave.
+    Reflection& reflection() { return reflection_; }
 
     /// The same times the share of the light that each lane sees, by rays to fixed points of it, which each lobe weighs
     /// by what it reflects of them. totals: each lane's light from all lights.

@@ -254,8 +254,7 @@ Reflection CapLightShading::seen_by_rays(const Scene& scene, const ShadowPoints&
         }
     };
     const std::span<LaneShares> lanes = std::span(shares).first(batch_.count);
-    ask_points(scene, points.max_passages(), std::min(diffuse_points.first_part(), glossy_points.first_part()), lanes,
-               add_points);
+    ask_points(scene, points, std::min(diffuse_points.first_part(), glossy_points.first_part()), lanes, add_points);
     return seen_in_part(reflection_, lanes, points);
 }
 

@@ -29,6 +29,8 @@ class CapLightShading {
     CapLightShading(const Light& light, const SurfaceBatch& batch, const RenderSettings& settings);
 
     const Reflection& reflection() const { return reflection_; }
+    /// To be told what its rules leave.
+    Reflection& reflection() { return reflection_; }
 
     /// Multiplies in the share of the light that each lane sees, by rays towards the fixed points. The diffuse lobe's
     /// points are spread over the light, the glossy lobe's by the lobe. totals: each lane's light from all lights.

@@ -298,7 +298,7 @@ void Fog::finish() {
     std::vector<Ray> rays;
     for (const Shadow& shadow : shadows_) rays.push_back(shadow.ray);
     std::vector<Rgb> left(rays.size());
-    light_along(work_.scene, work_.settings.max_passages, rays, left, work_.memory);
+    light_along(work_.scene, work_.settings.max_passages, {}, rays, left, work_.memory);
     for (std::size_t i = 0; i < shadows_.size(); ++i) {
         const Shadow& shadow = shadows_[i];
         if (shadow.is_open)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/integrators/analytic_lights.h"
+#include "core/integrators/group_light.h"
 #include "core/integrators/look_rays.h"
 #include "core/integrators/shadow_points.h"
 #include "core/integrators/shared_reflections.h"
@@ -21,10 +22,10 @@ struct Gathered {
 };
 
 /// Of each surface, after so many bounces. pixels: of each sample. sample_index: of all these. shared: what is known of
-/// virtual lights in these pixels.
+/// virtual lights in these pixels, of each of lights.bounced. groups: of the samples; null: nobody asks.
 std::vector<Gathered> gather_light(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
                                    const ShadowPoints& points, std::uint32_t bounce, std::span<const LookedAt> surfaces,
                                    std::span<const std::uint32_t> pixels, std::uint32_t sample_index,
-                                   SharedReflections& shared);
+                                   std::span<SharedReflections> shared, GroupLight* groups);
 
 }  // namespace pivot

@@ -70,13 +70,13 @@ struct Seen {
     float variance() const { return sqr(share.all) * share.variance(); }
 };
 
-Seen look(const Scene& scene, std::uint32_t max_passages, const SurfacePoint& point, std::span<const WeightedPoint> all,
-          bool traces_rays) {
+Seen look(const Scene& scene, std::uint32_t max_passages, const LightLinks& links, const SurfacePoint& point,
+          std::span<const WeightedPoint> all, bool traces_rays) {
     std::vector<Ray> rays;
     for (const WeightedPoint& p : all) rays.push_back({point.ray_origin(p.wi), p.wi, 0.0f, p.reach_m, point.time});
     std::vector<Rgb> open(rays.size(), Rgb(1.0f));
     ProgramMemory memory;
-    if (traces_rays) light_along(scene, max_passages, rays, open, memory);
+    if (traces_rays) light_along(scene, max_passages, links, rays, open, memory);
     Seen result;
     for (std::size_t i = 0; i < all.size(); ++i) {
         result.radiance += all[i].value * open[i];
@@ -128,7 +128,7 @@ LobeReflection reflect_light(const Scene& scene, const RenderSettings& settings,
         if (result.error < budget || count * 2 > std::max(counts.most, points.count())) break;
     }
     const bool traces_rays = settings.occlusion == Occlusion::ray_traced && rules.casts_shadows;
-    const Seen seen = look(scene, settings.max_passages, point, all, traces_rays);
+    const Seen seen = look(scene, settings.max_passages, rules.links, point, all, traces_rays);
     result.radiance = seen.radiance * (rules.casts_shadows ? seen.through : Rgb(1.0f));
     result.shadow_variance = seen.variance();
     return result;
@@ -148,9 +148,15 @@ LobeReflection reflect_world(const Scene& scene, const RenderSettings& settings,
         if (pdf > 0.0f && vertex.is_open_to(wi))
             all.push_back({wi, std::numeric_limits<float>::infinity(), eval(lobe, wi_local) / pdf});
     }
-    const Seen seen = look(scene, settings.max_passages, point, all, settings.occlusion == Occlusion::ray_traced);
+    const Seen seen =
+        look(scene, settings.max_passages, LightLinks{}, point, all, settings.occlusion == Occlusion::ray_traced);
     if (!(seen.share.all > 0.0f)) return {};
-    const Rgb light = scene.world() * albedo;
+    Rgb whole(0.0f), lit(0.0f);
+    for (const WeightedPoint& p : all) {
+        whole += p.value;
+        lit += p.value * lit_share(scene.world_rules(), lobe, point.frame.to_local(p.wi));
+    }
+    const Rgb light = scene.world() * albedo * (lit / max(whole, Rgb(tiny<float>)));
     return {light * seen.through * seen.share.color(), error_of_albedo,
             sqr(mean_component(abs(light))) * std::max(seen.share.variance(), points.missed_variance(seen.share))};
 }

@@ -20,7 +20,8 @@ void look(const LookedAt& from, const FacetRayOf<float>& facet, bool is_smooth, 
                     .footprint_m = from.arrival.footprint_m,
                     .spread = from.spread,
                     .meets_lamps = meets_lamps && is_smooth && !from.is_spread,
-                    .is_spread = from.is_spread || !is_smooth});
+                    .is_spread = from.is_spread || !is_smooth,
+                    .from = from.arrival.hit.instance});
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct LookRay {
     float footprint_m = 0.0f, spread;  ///< how wide its part of a pixel is at the origin, and how much more for each m
     bool meets_lamps = false;          ///< where no closed form shows them and they are seen whole
     bool is_spread = false;            ///< whether a rough boundary might have sent it elsewhere
+    std::uint32_t from = no_instance;  ///< whose surface it comes to, for what lights that one
 };
 
 /// A surface that a ray met.

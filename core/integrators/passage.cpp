@@ -230,23 +230,35 @@ Rgb light_past_others(const Scene& scene, const Ray& ray, const LightLinks& link
     return left;
 }
 
-void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,
+Vec3b light_left(const Scene& scene, RayOf<Batch> rays, const LightLinks& links, const ShadowPath& path,
                  ProgramMemory& memory) {
-    if (!scene.has_transparency()) {
+    if (has_blockers_of_its_own(links)) {
+        const std::array<Ray, batch_size> each = unpack<RayOf>(rays);
+        return gather_vector([&](std::size_t i) {
+            return each[i].far_m > 0.0f ? light_past_others(scene, each[i], links, path, i, memory) : Rgb(0.0f);
+        });
+    }
+    const Batch visible = scene.visibility(rays), zero(0.0f);
+    if (!scene.has_transparency()) return Vec3b(visible);
+    rays.far_m = select(visible > zero, rays.far_m, zero);
+    return light_through(scene, rays, path, memory) * visible;
+}
+
+void light_along(const Scene& scene, std::uint32_t max_passages, const LightLinks& links, std::span<const Ray> rays,
+                 std::span<Rgb> left, ProgramMemory& memory) {
+    if (!scene.has_transparency() && !has_blockers_of_its_own(links)) {
         std::vector<std::uint8_t> hidden(rays.size());
         scene.occluded(rays, hidden);
         for (std::size_t i = 0; i < rays.size(); ++i) left[i] = Rgb(hidden[i] ? 0.0f : 1.0f);
         return;
     }
     constexpr Ray no_ray{.origin = Vec3f(0.0f), .direction = Vec3f(0.0f), .near_m = 0.0f, .far_m = 0.0f};
+    const ShadowPath path{max_passages, 0, WordBatch(camera_ray)};
     for (std::size_t first = 0; first < rays.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, rays.size() - first);
         std::array<const Ray*, batch_size> lanes;
         for (std::size_t i = 0; i < batch_size; ++i) lanes[i] = i < count ? &rays[first + i] : &no_ray;
-        RayOf<Batch> batch = pack<RayOf>(lanes);
-        const Batch visible = scene.visibility(batch), zero(0.0f);
-        batch.far_m = select(visible > zero, batch.far_m, zero);
-        const Vec3b light = light_through(scene, batch, {max_passages, 0, WordBatch(camera_ray)}, memory) * visible;
+        const Vec3b light = light_left(scene, pack<RayOf>(lanes), links, path, memory);
         const Lanes r = store(light.x), g = store(light.y), b = store(light.z);
         for (std::size_t i = 0; i < count; ++i) left[first + i] = {r[i], g[i], b[i]};
     }

@@ -127,9 +127,12 @@ Vec3b light_through(const Scene& scene, const RayOf<Batch>& rays, const ShadowPa
 Rgb light_past_others(const Scene& scene, const Ray& ray, const LightLinks& links, const ShadowPath& path,
                       std::size_t lane, ProgramMemory& memory);
 
-/// The same as light_through of rays from surfaces that a camera sees, whatever these meet: 0 where it is opaque. What
-/// the camera looked through does not count among the passages.
-void light_along(const Scene& scene, std::uint32_t max_passages, std::span<const Ray> rays, std::span<Rgb> left,
+/// What is left along shadow rays, whatever is in their way: 0 where it is opaque. links: of the light that they go to.
+Vec3b light_left(const Scene& scene, RayOf<Batch> rays, const LightLinks& links, const ShadowPath& path,
                  ProgramMemory& memory);
+
+/// The same of rays from surfaces that a camera sees; what the camera looked through does not count among the passages.
+void light_along(const Scene& scene, std::uint32_t max_passages, const LightLinks& links, std::span<const Ray> rays,
+                 std::span<Rgb> left, ProgramMemory& memory);
 
 }  // namespace pivot

@@ -7,6 +7,7 @@
 
 #include "core/distributions/spherical_gaussian.h"
 #include "core/integrators/cell_space.h"
+#include "core/integrators/lit_share.h"
 #include "core/integrators/passage.h"
 #include "core/sampling/sobol.h"
 #include "core/sampling/warp.h"
@@ -27,7 +28,8 @@ struct Photon {
     Ray ray;
     Rgb power_w;
     Sampler sampler;
-    std::uint32_t max_bounces = ~0u;  ///< of its light's rules
+    LightRules rules{};   ///< its light's
+    std::size_t set = 0;  ///< of those that are told apart
 };
 
 /// A sphere around all that photons may meet.
@@ -102,12 +104,15 @@ float power_of(const Light& light, const Bounds& bounds) {
     return mean_component(abs(emission.power_w));
 }
 
+/// Which set what comes of a light group is of: the last that of all groups which nobody asks for.
+std::size_t set_of(std::uint32_t group, std::uint32_t groups) { return std::min(group, groups); }
+
 /// Photons with even shares of their light's power, as many of each light as its power is of all.
-std::vector<Photon> emit(const Scene& scene, std::uint32_t count) {
+std::vector<Photon> emit(const Scene& scene, std::uint32_t count, std::uint32_t groups) {
     const Bounds bounds = bounds_of(scene);
     if (!(bounds.radius_m > 0.0f && std::isfinite(bounds.radius_m))) return {};
     const std::size_t light_count = scene.lamps().size() + scene.triangle_lights().size();
-    const Rgb world = scene.has_world() ? scene.world() : Rgb(0.0f);
+    const Rgb world = scene.has_world() && scene.world_rules().max_bounces > 0 ? scene.world() : Rgb(0.0f);
     const Rgb world_power = world * (pi<float> * 4.0f * pi<float> * sqr(bounds.radius_m));
     std::vector<double> powers;
     for (std::size_t i = 0; i < light_count; ++i)
@@ -126,11 +131,13 @@ std::vector<Photon> emit(const Scene& scene, std::uint32_t count) {
             const float share = 1.0f / static_cast<float>(own);
             if (i < light_count) {
                 const auto [ray, power] = std::visit(Emitter{bounds, u_direction, u_place}, scene.light(i));
-                const std::uint32_t most = scene.has_light_rules() ? scene.rules_of(i).max_bounces : ~0u;
-                if (most > 0) photons.push_back({ray, power * share, sampler, most});
+                const LightRules rules = scene.has_light_rules() ? scene.rules_of(i) : LightRules{};
+                if (rules.max_bounces > 0)
+                    photons.push_back({ray, power * share, sampler, rules, set_of(scene.light_group_of(i), groups)});
             } else {
                 const Vec3f from = sample(Cap<float>{Vec3f(0.0f, 0.0f, 1.0f), 2.0f}, u_direction);
-                photons.push_back({ray_from_far(bounds, from, u_place), world_power * share, sampler});
+                photons.push_back({ray_from_far(bounds, from, u_place), world_power * share, sampler,
+                                   scene.world_rules(), set_of(scene.world_light_group(), groups)});
             }
         }
     }
@@ -150,9 +157,12 @@ void deposit_base(const Base& base, const SurfacePoint& point, const Photon& pho
     const Vec3f& normal = point.frame.z;
     const LightPlace place{point.position, point.normal_geometric};
     const std::uint32_t id = hash(hash(photon.sampler.pixel_seed, photon.sampler.sample), bounce);
-    if (const Rgb power = base.diffuse * photon.power_w; base.has_diffuse() && carries_light(power))
+    // A light's rules are of what it lights straight.
+    const std::uint32_t lights = bounce == 0 ? photon.rules.lights : visible_to_paths;
+    if (const Rgb power = base.diffuse * photon.power_w;
+        base.has_diffuse() && (lights & visible_to_diffuse) && carries_light(power))
         deposits.diffuse.push_back(cells.deposit(id, owner, place, normal, power));
-    if (!base.has_glossy()) return;
+    if (!base.has_glossy() || !(lights & visible_to_glossy)) return;
     // Each direction stands for a part of the lobe: one alone would shine without bound.
     const float concentration = 1.0f - 1.0f / (8.0f * ggx_lobe(base.alpha, base.wo_local).sharpness + 1.0f);
     for (std::uint32_t k = 0; k < directions_per_reflection; ++k) {
@@ -186,10 +196,11 @@ std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& poin
     const float pdf = pdf_omega(surface, wi_local);
     if (!(pdf > 0.0f)) return std::nullopt;
     const Vec3f wi = point.frame.to_world(wi_local);
-    const Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
+    Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
+    if (bounce == 0) power *= lit_share(photon.rules, surface, wi_local);
     const bool is_open = point.faces(wi) || (surface.transmits() && point.faces(-wi));
     if (!carries_light(power) || !is_open) return std::nullopt;
-    return Photon{{point.ray_origin(wi), wi}, power, photon.sampler, photon.max_bounces};
+    return Photon{{point.ray_origin(wi), wi}, power, photon.sampler, photon.rules, photon.set};
 }
 
 /// Has photons go straight on through transparent surfaces from what they first met: sets that to where they end.
@@ -210,43 +221,73 @@ void go_on(const Scene& scene, std::uint32_t max_path_passages, std::vector<Phot
     }
 }
 
-/// Follows photons from surface to surface.
+/// Photons of lights that light and are hidden by some objects only, straight from these: takes away the hits of those
+/// that they do not light, and returns the photons behind those that do not hide them.
+std::vector<Photon> obey_links(const Scene& scene, std::span<const Photon> photons,
+                               std::span<std::optional<RayHit>> hits) {
+    std::vector<Photon> behind_others;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!hits[i]) continue;
+        const LightLinks& links = photons[i].rules.links;
+        const LinkSets& met = scene.link_sets_of(hits[i]->instance);
+        if (!is_blocker(links, met)) {
+            behind_others.push_back(photons[i]);
+            behind_others.back().ray.near_m = behind(hits[i]->distance_m);
+        }
+        if (!is_receiver(links, met)) hits[i].reset();
+    }
+    return behind_others;
+}
+
+/// Follows photons to the surfaces that they meet, where they leave light. further: gets those that surfaces send on.
+/// Returns those that still come straight from their lights.
+std::vector<Photon> meet(const Scene& scene, std::uint32_t max_path_passages, std::vector<Photon> photons,
+                         std::uint32_t bounce, std::uint32_t bounces, ProgramMemory& memory,
+                         std::vector<Photon>& further, std::span<Deposits> deposits) {
+    std::vector<Ray> rays;
+    for (const Photon& photon : photons) rays.push_back(photon.ray);
+    std::vector<std::optional<RayHit>> hits(rays.size());
+    scene.intersect(rays, visible_to_diffuse, hits);
+    if (scene.has_transparency()) go_on(scene, max_path_passages, photons, bounce, memory, hits);
+    std::vector<Photon> straight_on;
+    if (bounce == 0 && scene.has_links()) straight_on = obey_links(scene, photons, hits);
+    using Arrived = std::pair<Arrival, std::size_t>;  // and its photon
+    std::vector<Arrived> arrivals;
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        if (hits[i])
+            arrivals.push_back({{.direction = rays[i].direction,
+                                 .hit = *hits[i],
+                                 .material = scene.material_of(*hits[i]),
+                                 .footprint_m = 0.0f,
+                                 .ray_kind = diffuse_ray},
+                                i});
+    std::ranges::stable_sort(arrivals, {}, [&](const auto& a) { return a.first.material; });
+    const auto arrival_of = [](const Arrived& a) -> const Arrival& { return a.first; };
+    for_each_arrival_batch<Arrived>(
+        scene, arrivals, arrival_of, [&](std::span<const Arrival* const> met, std::span<const Arrived> of_batch) {
+            const ArrivalBatch batch = make_arrivals(scene, met, bounce + 1, memory);
+            const auto points = unpack<SurfacePointOf>(batch.point);
+            const auto surfaces = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
+            for (std::size_t i = 0; i < of_batch.size(); ++i) {
+                const Photon& photon = photons[of_batch[i].second];
+                const std::uint32_t owner = met[i]->hit.instance;
+                const CellSpace cells(scene.world_from_object(owner));
+                deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits[photon.set]);
+                if (bounce + 1 == std::min(bounces, photon.rules.max_bounces)) continue;
+                if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
+            }
+        });
+    return straight_on;
+}
+
+/// Follows photons from surface to surface. deposits: of each set.
 void trace(const Scene& scene, std::uint32_t max_path_passages, std::vector<Photon> photons, std::uint32_t bounces,
-           Deposits& deposits) {
+           std::span<Deposits> deposits) {
     ProgramMemory memory;
     for (std::uint32_t bounce = 0; bounce < bounces && !photons.empty(); ++bounce) {
-        std::vector<Ray> rays;
-        for (const Photon& photon : photons) rays.push_back(photon.ray);
-        std::vector<std::optional<RayHit>> hits(rays.size());
-        scene.intersect(rays, visible_to_diffuse, hits);
-        if (scene.has_transparency()) go_on(scene, max_path_passages, photons, bounce, memory, hits);
-        using Arrived = std::pair<Arrival, std::size_t>;  // and its photon
-        std::vector<Arrived> arrivals;
-        for (std::size_t i = 0; i < hits.size(); ++i)
-            if (hits[i])
-                arrivals.push_back({{.direction = rays[i].direction,
-                                     .hit = *hits[i],
-                                     .material = scene.material_of(*hits[i]),
-                                     .footprint_m = 0.0f,
-                                     .ray_kind = diffuse_ray},
-                                    i});
-        std::ranges::stable_sort(arrivals, {}, [&](const auto& a) { return a.first.material; });
-        const auto arrival_of = [](const Arrived& a) -> const Arrival& { return a.first; };
         std::vector<Photon> further;
-        for_each_arrival_batch<Arrived>(
-            scene, arrivals, arrival_of, [&](std::span<const Arrival* const> met, std::span<const Arrived> of_batch) {
-                const ArrivalBatch batch = make_arrivals(scene, met, bounce + 1, memory);
-                const auto points = unpack<SurfacePointOf>(batch.point);
-                const auto surfaces = unpack<SurfaceOf>(make_surface(batch.material, batch.point.wo_local));
-                for (std::size_t i = 0; i < of_batch.size(); ++i) {
-                    const Photon& photon = photons[of_batch[i].second];
-                    const std::uint32_t owner = met[i]->hit.instance;
-                    const CellSpace cells(scene.world_from_object(owner));
-                    deposit(surfaces[i], points[i], photon, owner, cells, bounce, deposits);
-                    if (bounce + 1 == std::min(bounces, photon.max_bounces)) continue;
-                    if (const auto next = scattered(surfaces[i], points[i], photon, bounce)) further.push_back(*next);
-                }
-            });
+        while (!photons.empty())
+            photons = meet(scene, max_path_passages, std::move(photons), bounce, bounces, memory, further, deposits);
         photons = std::move(further);
     }
 }
@@ -261,28 +302,39 @@ std::size_t leaf_count(const VirtualLightTree& tree) {
 
 }  // namespace
 
-VirtualLights trace_virtual_lights(const Scene& scene, const RenderSettings& settings) {
+std::vector<VirtualLights> trace_virtual_lights(const Scene& scene, const RenderSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
-    VirtualLights result;
-    if (settings.max_bounces == 0) return result;
-    const std::vector<Photon> photons = emit(scene, settings.virtual_lights * photons_per_light);
+    if (settings.max_bounces == 0) return {};
+    const std::uint32_t groups = settings.light_groups;
+    const std::vector<Photon> photons = emit(scene, settings.virtual_lights * photons_per_light, groups);
     constexpr std::size_t chunk = 512;
-    std::vector<Deposits> parts((photons.size() + chunk - 1) / chunk);
+    std::vector<std::vector<Deposits>> parts((photons.size() + chunk - 1) / chunk,
+                                             std::vector<Deposits>(std::size_t{groups} + 1));
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         const auto own = std::span(photons).subspan(i * chunk, std::min(chunk, photons.size() - i * chunk));
         trace(scene, settings.max_path_passages, {own.begin(), own.end()}, settings.max_bounces, parts[i]);
     });
-    Deposits deposits;
-    for (const Deposits& part : parts) {
-        append(deposits.diffuse, part.diffuse);
-        append(deposits.glossy, part.glossy);
+    std::vector<VirtualLights> all;
+    for (std::uint32_t set = 0; set <= groups; ++set) {
+        const auto count = static_cast<std::size_t>(std::ranges::count(photons, set, &Photon::set));
+        Deposits deposits;
+        for (const std::vector<Deposits>& part : parts) {
+            append(deposits.diffuse, part[set].diffuse);
+            append(deposits.glossy, part[set].glossy);
+        }
+        const std::size_t cells = cells_of_share(settings.virtual_lights, count, photons.size());
+        VirtualLights result;
+        result.diffuse = build_virtual_lights(deposits.diffuse, cells);
+        result.glossy = build_virtual_lights(deposits.glossy, cells);
+        if (result.is_empty()) continue;
+        if (set < groups) result.light_group = set;
+        result.light_count = leaf_count(result.diffuse) + leaf_count(result.glossy);
+        result.photon_count = count;
+        all.push_back(std::move(result));
     }
-    result.diffuse = build_virtual_lights(deposits.diffuse, settings.virtual_lights);
-    result.glossy = build_virtual_lights(deposits.glossy, settings.virtual_lights);
-    result.light_count = leaf_count(result.diffuse) + leaf_count(result.glossy);
-    result.photon_count = photons.size();
-    result.build_s = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
-    return result;
+    if (!all.empty())
+        all.front().build_s = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
+    return all;
 }
 
 }  // namespace pivot

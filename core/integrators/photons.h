@@ -8,7 +8,8 @@
 
 namespace pivot {
 
-/// Traces them on all cores; the same scene and settings give the same lights, whatever the number of threads.
-VirtualLights trace_virtual_lights(const Scene& scene, const RenderSettings& settings);
+/// Traces them on all cores; the same scene and settings give the same lights, whatever the number of threads. What
+/// comes of each light group that is asked for is apart.
+std::vector<VirtualLights> trace_virtual_lights(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace pivot

@@ -43,7 +43,7 @@ void add_occlusion(const Scene& scene, const RenderSettings& settings, std::span
     std::vector<Ray> rays;
     for (const OcclusionRay& each : occlusion_rays) rays.push_back(each.ray);
     std::vector<Rgb> left(rays.size());
-    light_along(scene, settings.max_passages, rays, left, memory);
+    light_along(scene, settings.max_passages, {}, rays, left, memory);
     for (std::size_t i = 0; i < rays.size(); ++i)
         passes[occlusion_rays[i].sample].ambient_occlusion += occlusion_rays[i].weight * left[i];
 }

@@ -76,7 +76,7 @@ struct RenderSettings {
     std::uint32_t light_groups = 0;  ///< whose light passes show apart
     std::uint32_t aovs = 0;          ///< values of shaders that passes show
     Mist mist{};
-    bool shadow_catchers = false;       ///< whether what others do to their light is told; by Monte Carlo
+    bool shadow_catchers = false;       ///< whether what others do to their light is told
     float occlusion_distance_m = 0.0f;  ///< how far the pass of ambient occlusion looks; 0: it is not asked for
 
     std::size_t named_passes() const { return first_catcher_pass() + (shadow_catchers ? catcher_pass::count : 0); }

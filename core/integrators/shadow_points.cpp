@@ -44,9 +44,9 @@ void ShadowRays::tell(const Probe& probe, const Rgb& left) {
     probe.shares->rim.add(probe.rim, left);
 }
 
-void ShadowRays::trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen) {
+void ShadowRays::trace(const Scene& scene, const ShadowPoints& points, const OnSeen& on_seen) {
     std::vector<Rgb> left(rays_.size());
-    light_along(scene, max_passages, rays_, left, memory_);
+    light_along(scene, points.max_passages(), points.links(), rays_, left, memory_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         tell(probes_[i], left[i] * probes_[i].left);
         if (on_seen && max_component(left[i]) > 0.0f) on_seen(rays_[i], probes_[i], left[i]);
@@ -64,7 +64,7 @@ void ShadowRays::clear() {
     probes_.clear();
 }
 
-void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
+void ask_points(const Scene& scene, const ShadowPoints& points, float first_part, std::span<LaneShares> shares,
                 const AddPoints& add, const ShadowRays::OnSeen& on_seen, bool traces_rays) {
     std::array<bool, batch_size> wanted;
     wanted.fill(true);
@@ -72,7 +72,7 @@ void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part
     for (PartOfPoints part{0.0f, first_part};; part = {part.end, std::min(2.0f * part.end, 1.0f)}) {
         add(part, wanted, rays);
         if (traces_rays)
-            rays.trace(scene, max_passages, on_seen);
+            rays.trace(scene, points, on_seen);
         else
             rays.pass();
         for (std::size_t i = 0; i < shares.size(); ++i) wanted[i] &= shares[i].wanted_part() > part.end;

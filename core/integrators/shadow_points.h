@@ -105,12 +105,22 @@ class ShadowPoints {
         : ShadowPoints(points_for(100.0f / settings.error_budget_percent), 0.01f * settings.error_budget_percent,
                        usual_samples(settings), sample_index, settings.max_passages) {}
 
+    /// The same points of a light that casts the shadows of some objects only.
+    ShadowPoints past_others(const LightLinks& links) const {
+        ShadowPoints points = *this;
+        points.links_ = links;
+        return points;
+    }
+    const LightLinks& links() const { return links_; }
+
     /// Transparent surfaces that a ray to them may pass, and one.
     std::uint32_t max_passages() const { return max_passages_; }
 
     /// For a light that gives this share of all light.
     ShadowPoints for_share(float share) const {
-        return {pixel_count_ * std::pow(share, 4.0f / 3.0f), budget_, samples_, sample_index_, max_passages_};
+        ShadowPoints points = *this;
+        points.pixel_count_ = pixel_count_ * std::pow(share, 4.0f / 3.0f);
+        return points;
     }
     /// The same for points whose weights differ much: a sample's mean of few is shifted, by up to an eighth of a point
     /// or so, which other samples do not make good for. Not so of four.
@@ -190,6 +200,7 @@ class ShadowPoints {
     float pixel_count_;  ///< of all samples together
     float budget_;       ///< relative
     std::uint32_t samples_, sample_index_, max_passages_;
+    LightLinks links_{};
 };
 
 /// The largest part that a light's reflection has of any lane's total.
@@ -208,7 +219,7 @@ class ShadowRays {
 
     void add(const Ray& ray, bool is_faced, const Probe& probe);
     /// on_seen: is told of the rays that nothing hides; may be empty.
-    void trace(const Scene& scene, std::uint32_t max_passages, const OnSeen& on_seen = {});
+    void trace(const Scene& scene, const ShadowPoints& points, const OnSeen& on_seen = {});
     /// The same as if nothing were in their way.
     void pass();
 
@@ -225,8 +236,8 @@ class ShadowRays {
 using AddPoints = std::function<void(const PartOfPoints&, std::span<const bool> wanted, ShadowRays& rays)>;
 
 /// Asks points for the share that each lane sees, until they are enough. first_part: asked in any case.
-/// shares: of at most batch_size lanes. max_passages: of ShadowPoints. traces_rays: else nothing is in their way.
-void ask_points(const Scene& scene, std::uint32_t max_passages, float first_part, std::span<LaneShares> shares,
+/// shares: of at most batch_size lanes. points: what their rays pass. traces_rays: else nothing is in their way.
+void ask_points(const Scene& scene, const ShadowPoints& points, float first_part, std::span<LaneShares> shares,
                 const AddPoints& add, const ShadowRays::OnSeen& on_seen = {}, bool traces_rays = true);
 
 /// What each lane reflects of a light towards the viewer, and how far off that may be.

@@ -7,6 +7,7 @@
 #include "core/bsdf/surface.h"
 #include "core/geometry/surface_point.h"
 #include "core/integrators/settings.h"
+#include "core/scene/light_links.h"
 #include "core/shading/ggx_cap_light.h"
 #include "core/simd/batch.h"
 
@@ -18,6 +19,7 @@ struct ShadingPoint {
     Base surface;
     Cap<float> bent_cone;   ///< world space, where occlusion is by bent cones
     bool is_glass = false;  ///< the part of a lobe that refracts, too
+    LinkSets link_sets{};   ///< of its object
 };
 
 struct SurfaceBatch {

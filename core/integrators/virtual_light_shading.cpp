@@ -118,7 +118,7 @@ class LightCut {
     }
 
     /// A few shadow rays to each light that matters; the rest is seen as these are in the mean.
-    void trace(const Scene& scene, std::uint32_t max_passages) {
+    void trace(const Scene& scene, std::uint32_t max_passages, const LightLinks& links) {
         const ShadowPath shadow_path{max_passages, 0, WordBatch(camera_ray)};
         ProgramMemory memory;
         const Batch zero(0.0f);
@@ -138,12 +138,8 @@ class LightCut {
                 RayOf<Batch> rays{origin, place.wi, zero,
                                   select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero), time};
                 // Light from places that are all behind the surface comes through it.
-                Batch visible = select(place.is_faced, scene.visibility(rays), zero);
-                if (scene.has_transparency()) {
-                    rays.far_m = select(visible > zero, rays.far_m, zero);
-                    visible *= mean_component(light_through(scene, rays, shadow_path, memory));
-                }
-                cut.visible += visible * Batch(1.0f / rays_per_light);
+                const Vec3b left = light_left(scene, rays, links, shadow_path, memory);
+                cut.visible += select(place.is_faced, mean_component(left), zero) * Batch(1.0f / rays_per_light);
             }
             seen += select(asked[k], size * cut.visible, zero);
             all += select(asked[k], size, zero);
@@ -395,11 +391,12 @@ Rgb VirtualReflection::radiance(const Base& surface) const {
 std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
                                                                  const VirtualLightTree& diffuse,
                                                                  const VirtualLightTree& glossy,
-                                                                 const SurfaceBatch& batch, std::uint32_t turn) {
+                                                                 const SurfaceBatch& batch, std::uint32_t turn,
+                                                                 const LightLinks& links) {
     LightCut cut(batch, settings, turn);
     cut.cut(diffuse, glossy);
     cut.refine();
-    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene, settings.max_passages);
+    if (settings.occlusion == Occlusion::ray_traced) cut.trace(scene, settings.max_passages, links);
     return cut.result();
 }
 

@@ -21,10 +21,12 @@ struct VirtualReflection {
     Rgb radiance(const Base& surface) const;
 };
 
-/// Of each lane; either tree may be empty. turn: which of a light's places shadow rays ask first.
+/// Of each lane; either tree may be empty. turn: which of a light's places shadow rays ask first. links: of what
+/// shines.
 std::array<VirtualReflection, batch_size> reflect_virtual_lights(const Scene& scene, const RenderSettings& settings,
                                                                  const VirtualLightTree& diffuse,
                                                                  const VirtualLightTree& glossy,
-                                                                 const SurfaceBatch& batch, std::uint32_t turn);
+                                                                 const SurfaceBatch& batch, std::uint32_t turn,
+                                                                 const LightLinks& links = {});
 
 }  // namespace pivot

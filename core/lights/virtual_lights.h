@@ -9,6 +9,7 @@
 // no light is lost, and none jumps as it moves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -56,12 +57,20 @@ using VirtualLightTree = std::vector<VirtualLight>;
 
 struct VirtualLights {
     VirtualLightTree diffuse, glossy;
-    std::size_t light_count = 0;  ///< leaves of both
+    std::uint32_t light_group = ~0u;  ///< that it all comes of; what no group is asked for: of any
+    std::size_t light_count = 0;      ///< leaves of both
     std::size_t photon_count = 0;
-    float build_s = 0.0f;
+    float build_s = 0.0f;  ///< of all that are made together, the first one's; of the others 0
 
     bool is_empty() const { return diffuse.empty() && glossy.empty(); }
 };
+
+/// How many of all cells some of the deposits get.
+inline std::size_t cells_of_share(std::size_t cells, std::size_t deposits, std::size_t all_deposits) {
+    return deposits == all_deposits
+               ? cells
+               : std::max<std::size_t>(1, cells * deposits / std::max<std::size_t>(1, all_deposits));
+}
 
 /// About so many cells of light, as the deposits' places fill them.
 VirtualLightTree build_virtual_lights(std::span<const LightDeposit> deposits, std::size_t cell_count);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/integrators/catcher_light.h"
+
 namespace pivot {
 namespace {
 
@@ -85,9 +87,8 @@ double Session::sampling_s() const {
     return std::chrono::duration<double>(end - sampling_start_).count();
 }
 
-const VirtualLights& Session::virtual_lights() const {
-    static const VirtualLights none;
-    return lights_ ? lights_->lights.bounced : none;
+std::span<const VirtualLights> Session::virtual_lights() const {
+    return lights_ ? std::span<const VirtualLights>(lights_->lights.bounced) : std::span<const VirtualLights>();
 }
 
 std::shared_ptr<const SessionLights> Session::lights() const {
@@ -112,10 +113,14 @@ void Session::run() {
         catchers_ = scene_->only_shadow_catchers();
         catchers_->commit();
     }
-    if (settings_.integrator == Integrator::analytic && settings_.occlusion == Occlusion::bent_cone)
+    const bool is_analytic = settings_.integrator == Integrator::analytic;
+    if (is_analytic && settings_.occlusion == Occlusion::bent_cone) {
         scene_->trace_bent_cones([this] { return should_stop(); });
+        if (catchers_) catchers_->trace_bent_cones([this] { return should_stop(); });
+    }
     std::shared_ptr<const SessionLights> lights;
-    if (settings_.integrator == Integrator::analytic) {
+    if (is_analytic) {
+        if (catchers_) catcher_lights_ = gather_lights(*catchers_, settings_of_catchers(settings_));
         const bool is_known = known_lights_ && known_lights_->scene.lock() == scene_ &&
                               gather_the_same(known_lights_->settings, settings_);
         lights = is_known ? known_lights_

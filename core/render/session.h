@@ -55,7 +55,7 @@ class Session {
     std::uint64_t pixel_samples() const { return pixel_samples_done_; }
     const Film& film() const { return film_; }
     /// Once samples are done.
-    const VirtualLights& virtual_lights() const;
+    std::span<const VirtualLights> virtual_lights() const;
     /// Null until they are gathered, and of Monte Carlo.
     std::shared_ptr<const SessionLights> lights() const;
     /// The first few samples that were not finite and were left out, each by pixel and object.
@@ -85,11 +85,20 @@ class Session {
     std::vector<Sample> sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
                                    std::vector<SurfacePasses>& passes, std::vector<SeenMatte>& mattes,
                                    std::vector<Rgb>& named);
-    /// Analytic samples of one index go together in a batch: what is known by it they share. pixels: of each ray,
-    /// rising.
-    void shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
-                        std::span<const std::uint32_t> pixels, std::span<const Vec2f> offsets,
-                        std::span<Sample> samples) const;
+    /// Rays of a row, as analytic samples take them.
+    struct IndexedRays {
+        std::span<const Ray> rays;
+        std::span<const std::uint32_t> indices;
+        std::span<const std::uint32_t> pixels;  ///< rising
+        std::span<const Vec2f> offsets;         ///< by their indices
+    };
+    /// Analytic samples of one index go together in a batch: what is known by it they share. named: of each sample, as
+    /// light groups fill them; may be empty.
+    static void shade_by_index(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                               const IndexedRays& all, std::span<Sample> samples, std::span<Rgb> named);
+    /// Follows those of a row's rays through the scene of shadow catchers alone.
+    void follow_among_catchers(const IndexedRays& all, std::span<const Sampler> samplers,
+                               std::span<const std::size_t> which, std::span<Sample> samples) const;
     /// How many of a pass's samples a square gets.
     static std::size_t count_of(const Round& round, const SamplePass& pass, std::size_t square);
     /// surfaces: null where nobody asks.
@@ -99,6 +108,7 @@ class Session {
 
     std::shared_ptr<Scene> scene_;
     std::shared_ptr<Scene> catchers_;  ///< alone; none where these are not told of
+    AnalyticLights catcher_lights_;    ///< likewise, of analytic pictures
     RenderSettings settings_;
     std::shared_ptr<const SessionLights> known_lights_;
     PixelFilter filter_;

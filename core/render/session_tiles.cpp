@@ -105,7 +105,7 @@ struct Session::SamplePass {
 bool Session::render_round(const Round& round, std::uint32_t samples) {
     const auto tiles = make_tiles(scene_->camera().window, filter_.reach_px());
     const std::uint32_t most = round.counts.empty() ? max_samples_per_pass : max_samples_per_sparse_pass;
-    const std::uint32_t first_count = virtual_lights().is_empty() ? 1u : bounced_samples_shared;
+    const std::uint32_t first_count = virtual_lights().empty() ? 1u : bounced_samples_shared;
     // An analytic picture is the same for all seeds.
     const std::uint32_t seed = settings_.integrator == Integrator::analytic ? 0u : hash(round.seed, place_seed);
     for (std::uint32_t done = 0; done < samples;) {
@@ -214,39 +214,65 @@ void Session::render_tile(const Round& round, const SamplePass& pass, const Tile
     pixel_samples_done_ += samples_added;
 }
 
-void Session::shade_by_index(std::span<const Ray> rays, std::span<const std::uint32_t> indices,
-                             std::span<const std::uint32_t> pixels, std::span<const Vec2f> offsets,
-                             std::span<Sample> samples) const {
-    std::vector<std::size_t> order(rays.size());
+void Session::shade_by_index(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                             const IndexedRays& all, std::span<Sample> samples, std::span<Rgb> named) {
+    std::vector<std::size_t> order(all.rays.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     // Of samples that share, those near the pixel's centre come first: what they find stands for the pixel.
-    const std::uint32_t first_index = std::ranges::min(indices);
+    const std::uint32_t first_index = std::ranges::min(all.indices);
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-        const std::uint32_t index = indices[i];
-        const Vec2f& offset = offsets[index - first_index];
+        const std::uint32_t index = all.indices[i];
+        const Vec2f& offset = all.offsets[index - first_index];
         return std::tuple(index / bounced_samples_shared, dot(offset, offset), index);
     });
     std::vector<Ray> together;
     std::vector<std::uint32_t> pixels_of_together;
     std::vector<Sample> shaded;
-    std::optional<SharedReflections> shared;
-    std::uint32_t shared_by = 0;
+    std::vector<Rgb> of_groups;
+    std::vector<SharedReflections> shared;
+    std::uint32_t shared_by = ~0u;
     for (std::size_t first = 0; first < order.size(); first += together.size()) {
-        const std::uint32_t index = indices[order[first]];
-        if (const std::uint32_t by = index / bounced_samples_shared; !shared || by != shared_by) {
-            shared.emplace(pixels.back() + 1);
+        const std::uint32_t index = all.indices[order[first]];
+        if (const std::uint32_t by = index / bounced_samples_shared; by != shared_by) {
+            shared.assign(lights.bounced.size(), SharedReflections(all.pixels.back() + 1));
             shared_by = by;
         }
         together.clear();
         pixels_of_together.clear();
-        for (std::size_t i = first; i < order.size() && indices[order[i]] == index; ++i) {
-            together.push_back(rays[order[i]]);
-            pixels_of_together.push_back(pixels[order[i]]);
+        for (std::size_t i = first; i < order.size() && all.indices[order[i]] == index; ++i) {
+            together.push_back(all.rays[order[i]]);
+            pixels_of_together.push_back(all.pixels[order[i]]);
         }
         shaded.resize(together.size());
-        shade_analytic(*scene_, settings_, lights_->lights, together, pixels_of_together, index, *shared, shaded);
-        for (std::size_t i = 0; i < shaded.size(); ++i) samples[order[first + i]] = shaded[i];
+        of_groups.assign(settings.light_groups * together.size(), Rgb(0.0f));
+        GroupLight groups(settings.light_groups, settings.light_groups, of_groups);
+        shade_analytic(scene, settings, lights, together, pixels_of_together, index, shared, shaded,
+                       settings.light_groups > 0 ? &groups : nullptr);
+        for (std::size_t i = 0; i < shaded.size(); ++i) {
+            samples[order[first + i]] = shaded[i];
+            for (std::size_t k = 0; k < settings.light_groups; ++k)
+                named[order[first + i] * settings.named_passes() + k] = of_groups[i * settings.light_groups + k];
+        }
     }
+}
+
+void Session::follow_among_catchers(const IndexedRays& all, std::span<const Sampler> samplers,
+                                    std::span<const std::size_t> which, std::span<Sample> samples) const {
+    const auto those = [&]<class T>(std::span<const T> of_all) {
+        std::vector<T> some;
+        for (const std::size_t i : which) some.push_back(of_all[i]);
+        return some;
+    };
+    const RenderSettings settings = settings_of_catchers(settings_);
+    const std::vector<Ray> rays = those(all.rays);
+    if (settings.integrator == Integrator::monte_carlo) {
+        trace_paths(*catchers_, settings, rays, those(samplers), samples);
+        return;
+    }
+    const std::vector<std::uint32_t> indices = those(all.indices), pixels = those(all.pixels);
+    const std::uint32_t skipped = std::ranges::min(indices) - std::ranges::min(all.indices);
+    shade_by_index(*catchers_, settings, catcher_lights_, {rays, indices, pixels, all.offsets.subspan(skipped)},
+                   samples, {});
 }
 
 std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pass, int x0, int x1, int y,
@@ -287,12 +313,18 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     if (rays.empty()) return samples;
     if (!passes.empty() || settings_.mattes || settings_.aovs > 0)
         see_surfaces(*scene_, settings_, rays, samplers, passes, mattes, named);
-    if (is_analytic) {
-        shade_by_index(rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets, samples);
-    } else {
+    const IndexedRays indexed{rays, indices, pixels, pass.places_of(camera.window.x0 + x0, frame_y).offsets};
+    if (is_analytic)
+        shade_by_index(*scene_, settings_, lights_->lights, indexed, samples, named);
+    else
         trace_paths(*scene_, settings_, rays, samplers, samples, passes, named);
-        if (catchers_) tell_catchers(*scene_, *catchers_, settings_, rays, samplers, samples, named);
-    }
+    if (catchers_)
+        tell_catchers(
+            *scene_, settings_, rays, samples,
+            [&](std::span<const std::size_t> which, std::span<Sample> of_catchers) {
+                follow_among_catchers(indexed, samplers, which, of_catchers);
+            },
+            named);
     const std::size_t first_square = squares_.index(x0 + reach, y + reach);
     std::size_t at = 0;
     for (int x = x0; x < x1; ++x) {

@@ -19,9 +19,15 @@ def folder(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(("name", "pass_name"), [*((name, "Combined") for name in CASES), ("beside", "Shadow Catcher")])
-def test_passes_are_cycles(folder: Path, name: str, pass_name: str) -> None:
-    ours, cycles = (passes_by_name(folder / f"{name}_{engine}.exr")[pass_name] for engine in ("MONTE_CARLO", "CYCLES"))
+@pytest.mark.parametrize(
+    ("name", "pass_name", "integrator"),
+    [
+        *((name, "Combined", "MONTE_CARLO") for name in CASES),
+        *(("beside", "Shadow Catcher", integrator) for integrator in ("MONTE_CARLO", "ANALYTIC")),
+    ],
+)
+def test_passes_are_cycles(folder: Path, name: str, pass_name: str, integrator: str) -> None:
+    ours, cycles = (passes_by_name(folder / f"{name}_{engine}.exr")[pass_name] for engine in (integrator, "CYCLES"))
     assert ours.shape == cycles.shape
     assert ours.mean(axis=(0, 1)) == pytest.approx(cycles.mean(axis=(0, 1)), rel=TOLERANCE)
     if ours.shape[-1] == 4:  # premultiplied: over grey, so that alpha counts

@@ -26,3 +26,10 @@ def test_pictures_are_cycles(pictures: tuple[Path, list[str]]) -> None:
         if np.any(np.abs(ratio - 1) > TOLERANCE) or flip(ours, cycles) > FLIP:
             wrong[name] = (*ratio.round(4).tolist(), flip(ours, cycles))
     assert not wrong
+
+
+def test_strands_are_read_at_once(host: Host, tmp_path: Path) -> None:
+    """A call for each point takes a third of the time of a picture of much hair."""
+    apart = host.run("strand_cases", tmp_path)
+    assert all(found for found, _ in apart.values())
+    assert max(far for _, far in apart.values()) < 1e-5

@@ -20,6 +20,7 @@ def folder(host: Host, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.parametrize("integrator", ["MONTE_CARLO", "direct_ANALYTIC"])
 @pytest.mark.parametrize("name", CASES)
-def test_pictures_are_cycles(folder: Path, name: str) -> None:
-    assert_alike(folder, name, "MONTE_CARLO")
+def test_pictures_are_cycles(folder: Path, name: str, integrator: str) -> None:
+    assert_alike(folder, name, integrator)

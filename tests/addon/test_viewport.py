@@ -141,6 +141,15 @@ def test_the_viewport_is_denoised_at_rest(passes: tuple[Any, dict[str, Floats]])
     np.testing.assert_array_equal(pictures["denoise none"], pictures["combined"])
 
 
+def test_shadow_catchers_show_what_others_do_to_the_world_behind_them(passes: tuple[Any, dict[str, Floats]]) -> None:
+    picture = passes[1]["catcher"]
+    height, width = picture.shape[:2]
+    world = (0.5, 0.25, 0.125)
+    assert picture[height // 10, width // 2] == pytest.approx(world, rel=0.1)  # little is hidden there
+    darker = (picture < 0.8 * np.array(world)).all(-1)
+    assert 0.01 < darker.mean() < 0.5
+
+
 @pytest.fixture(scope="module")
 def edits(tmp_path_factory: pytest.TempPathFactory) -> Any:
     return in_a_window("viewport_edit_case", tmp_path_factory.mktemp("edits"))
@@ -188,9 +197,10 @@ def test_settings_start_samples_again_and_export_nothing(motion: Any) -> None:
 
 def test_what_is_left_out_is_said_in_the_view_and_once_on_the_console(motion: Any) -> None:
     assert motion["text"] == [
-        "1 thing is not shown as set: shadow catchers are shown as they are in 3D views. Fix: render the picture"
+        "1 thing is not shown as set: light 'oval': an uneven Scale is not supported, the cone is round and as wide as "
+        "its Spot Size"
     ]
-    assert motion["output"].count("Warning: Pivot: shadow catchers") == 1
+    assert motion["output"].count("Warning: Pivot: light 'oval'") == 1
 
 
 def test_images_are_read_once_and_in_their_color_space(tmp_path: Path) -> None:

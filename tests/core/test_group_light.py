@@ -63,6 +63,19 @@ def test_groups_sum_to_combined(adaptive: bool, is_foggy: bool, has_veil: bool, 
     np.testing.assert_array_equal(combined, plain)
 
 
+@pytest.mark.parametrize(("is_foggy", "has_veil", "indirect"), [(False, True, "VSGL"), (True, False, "NONE")])
+def test_groups_of_the_analytic_integrator_sum_to_combined(is_foggy: bool, has_veil: bool, indirect: str) -> None:
+    settings = {"samples": 4, "integrator": "ANALYTIC", "indirect": indirect, "virtual_lights": 256}
+    session = rendered(room(is_foggy, has_veil), light_groups=GROUPS, **settings)
+    groups: list[Floats] = [np.array(session.read_named(group)) for group in range(GROUPS)]
+    combined = np.array(session.read("Combined"))[..., :3]
+    np.testing.assert_allclose(sum(groups), combined, rtol=1e-3, atol=1e-4)
+    assert all(group.mean() > 0.0005 for group in groups)
+    # Virtual lights are cells of each group's own light, a little other than those of all light.
+    plain = np.array(rendered(room(is_foggy, has_veil), **settings).read("Combined"))[..., :3]
+    assert np.abs(combined - plain).mean() < (0.01 if indirect == "VSGL" else 1e-6) * plain.mean()
+
+
 def test_each_group_is_the_light_of_its_own() -> None:
     """As rendered without all else."""
     session = rendered(room(False, False), light_groups=GROUPS, samples=256)

@@ -80,13 +80,26 @@ def test_strategies_agree(links: tuple[int, int], panel: bool) -> None:
     np.testing.assert_allclose(means, means[0], rtol=0.03)
 
 
-def test_fog_is_a_receiver() -> None:
+@pytest.mark.parametrize("links", [(BUT_FIRST, ALL), (ALL, BUT_FIRST)])
+@pytest.mark.parametrize("panel", [False, True])
+@pytest.mark.parametrize("indirect", ["NONE", "VSGL"])
+def test_integrators_agree(links: tuple[int, int], panel: bool, indirect: str) -> None:
+    scene = scene_of(links, panel=panel)
+    bounces = 1 if indirect == "VSGL" else 0
+    exact = rendered(scene, samples=256, max_bounces=bounces)
+    ours = rendered(scene, samples=4, max_bounces=bounces, integrator="ANALYTIC", indirect=indirect)
+    assert ours.mean() == pytest.approx(exact.mean(), rel=0.015)
+    assert np.abs(ours - exact).mean() < 0.03 * exact.mean()
+
+
+@pytest.mark.parametrize("integrator", ["MONTE_CARLO", "ANALYTIC"])
+def test_fog_is_a_receiver(integrator: str) -> None:
     def foggy(links: tuple[int, int]) -> float:
         scene = scene_of(links, has_ball=False)
         medium = pivot_core.Medium(scattering=[((0.2, 0.2, 0.2), 0.0, "HENYEY_GREENSTEIN")])
         within = scene.add_material("fog", pivot_core.Material(), medium=medium, has_surface=False)
         scene.add_instances("fog", add_sphere(scene, 24), place(0, 0, 1), [within], link_sets=(1, 1))
-        session = pivot_core.Session(scene, pivot_core.RenderSettings(samples=16, max_bounces=0))
+        session = pivot_core.Session(scene, pivot_core.RenderSettings(samples=16, max_bounces=0, integrator=integrator))
         session.start()
         while not session.wait(10.0):
             pass

@@ -28,9 +28,12 @@ def read(session: pivot_core.Session, kind: str) -> Floats:
     return np.array(session.read_shadow_catchers(kind))
 
 
-@pytest.mark.parametrize("adaptive", [False, True])
-def test_alone_they_are_as_if_they_were_not_there(adaptive: bool) -> None:
-    session = session_of(False, samples=64, adaptive=adaptive)
+@pytest.mark.parametrize(
+    ("integrator", "adaptive"), [("MONTE_CARLO", False), ("MONTE_CARLO", True), ("ANALYTIC", False)]
+)
+def test_alone_they_are_as_if_they_were_not_there(integrator: str, adaptive: bool) -> None:
+    samples = 64 if integrator == "MONTE_CARLO" else 4
+    session = session_of(False, samples=samples, adaptive=adaptive, integrator=integrator, indirect="VSGL")
     np.testing.assert_allclose(read(session, "FACTOR"), 1.0, atol=1e-3)
     world = np.broadcast_to(np.array((0.2, 0.3, 0.4, 1.0), np.float32), (24, 24, 4))
     np.testing.assert_allclose(read(session, "WORLD"), world, atol=2e-3)
@@ -44,6 +47,14 @@ def test_what_hides_light_from_them_is_alpha() -> None:
     np.testing.assert_array_equal(over[..., :3], beside[..., :3])
     is_clear = beside[..., 3] == 0
     np.testing.assert_allclose(over[is_clear][:, 3], 1 - factor[is_clear].mean(-1).clip(0, 1), atol=1e-4)
+
+
+def test_integrators_agree_on_what_they_lose() -> None:
+    exact, ours = (
+        read(session_of(True, samples=samples, integrator=integrator, indirect="VSGL"), "FACTOR")
+        for integrator, samples in (("MONTE_CARLO", 256), ("ANALYTIC", 4))
+    )
+    assert np.abs(ours - exact).mean() < 0.01
 
 
 def test_passes_that_nobody_asked_for_are_refused() -> None:

@@ -31,4 +31,8 @@ def main(folder: Path) -> Any:
         bpy.context.view_layer.cycles.use_pass_shadow_catcher = has_pass
         _cycles(folder / f"{name}_CYCLES.exr", 1, file_format="OPEN_EXR_MULTILAYER")
         _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT", file_format="OPEN_EXR_MULTILAYER")
+        if name == "beside":
+            pivot = bpy.context.scene.pivot
+            pivot.integrator, pivot.indirect = "ANALYTIC", "VSGL"
+            _pivot(folder / f"{name}_ANALYTIC.exr", 1, "JOINT", 8, file_format="OPEN_EXR_MULTILAYER")
     return list(CASES)

@@ -79,14 +79,7 @@ def _reports() -> Any:
     parts.camera()
     parts.light("oval", "SPOT").scale = (1, 2, 1)
     parts.light("even", "SPOT").scale = (2, 2, 2)
-    fill = parts.light("fill", "POINT")
-    if bpy.app.version >= (4, 0):
-        fill.light_linking.receiver_collection = bpy.data.collections.new("receivers")
     bpy.context.scene.cycles.sample_clamp_direct = 1.0
-    catcher = parts.quad("catcher")
-    catcher.is_shadow_catcher = True
-    world = parts.world((1, 1, 1))
-    world.cycles_visibility.diffuse = False
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
     place = glow.node_tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
     glow.node_tree.links.new(place, emission.inputs["Strength"])

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 import parts
-from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
+from cycles_cases import SPHERE, _ball, by_both, directly_by_both, on_clay
 from visibility_cases import _glossy
 
 CASES = ("receivers", "blockers", "shining", "many")
@@ -20,8 +20,8 @@ def main(folder: Path) -> Any:
         _ball("left", (-1.3, 0, 1), clay)
         _ball("right", (1.3, 0, 1), _glossy("shiny", 0.3))
         globals()[f"_{name}"]()
-        _cycles(folder / f"{name}_CYCLES.exr", 1)
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT")
+        by_both(folder, name, 1)
+        directly_by_both(folder, name, 8)
     return list(CASES)
 
 

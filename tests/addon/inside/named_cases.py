@@ -38,7 +38,8 @@ def main(folder: Path) -> Any:
     _cycles(folder / "CYCLES.exr", 2, file_format="OPEN_EXR_MULTILAYER")
     _pivot(folder / "MONTE_CARLO.exr", 2, "JOINT", file_format="OPEN_EXR_MULTILAYER")
     bpy.context.scene.pivot.integrator = "ANALYTIC"
-    _pivot(folder / "ANALYTIC.exr", 0, "JOINT", file_format="OPEN_EXR_MULTILAYER")
+    bpy.context.scene.pivot.indirect = "VSGL"
+    _pivot(folder / "ANALYTIC.exr", 2, "JOINT", 8, file_format="OPEN_EXR_MULTILAYER")
     return None
 
 

@@ -109,7 +109,7 @@ def steps() -> Iterator[Callable[[], bool]]:
     scene, layer = main.scene, main.view_layer
     lamps = [lamp(k) for k in range(SECTORS)]
     light = parts.light("fill", "POINT", (0, 0, 100))
-    parts.quad("catcher", (0, 0, 200)).is_shadow_catcher = True
+    parts.light("oval", "SPOT", (0, 0, 200), energy=0.001).scale = (1, 2, 1)
     scene.render.engine = "PIVOT"
     scene.pivot.samples = 256
     region = area.spaces.active.region_3d

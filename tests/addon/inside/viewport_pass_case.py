@@ -93,6 +93,10 @@ def steps() -> Iterator[Callable[[], bool]]:
     result["has denoiser"] = denoise.is_there()
     for scene.pivot.denoise_viewport in ("ALL", "INDIRECT", "NONE"):
         yield kept(f"denoise {scene.pivot.denoise_viewport.lower()}")
+    floor.is_shadow_catcher = True
+    parts.world((0.5, 0.25, 0.125))
+    scene.pivot.preview_samples = 8
+    yield kept("catcher")
     window.write(result)
 
 
