@@ -27,6 +27,7 @@ class Dielectric:
     film_ior: Value
     film_nm: Value
     multiscatter: bool = False
+    beckmann: bool = False
 
     @staticmethod
     def of(program: Program, **given: Any) -> Dielectric:
@@ -52,10 +53,11 @@ class Dielectric:
     def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
         """As Surface.core_shader gives lobes to the core."""
         values = {name: getattr(self, name) for name in _VALUES}
-        return "dielectric", values, {"multiscatter": float(self.multiscatter)}
+        return "dielectric", values, {"multiscatter": float(self.multiscatter), "beckmann": float(self.beckmann)}
 
     def _shape(self) -> tuple[Value | bool, ...]:
-        return self.f0_tint, self.alpha, self.ior, self.fresnel, self.film_ior, self.film_nm, self.multiscatter
+        facets = (self.alpha, self.multiscatter, self.beckmann)
+        return self.f0_tint, self.ior, self.fresnel, self.film_ior, self.film_nm, *facets
 
 
 def as_few(dielectrics: Iterable[Dielectric]) -> tuple[Dielectric, ...]:

@@ -1,4 +1,5 @@
-"""Highlights about axes of their own: coats, anisotropic microfacets and conductors of an index of refraction."""
+"""Highlights that are lobes of their own: coats, conductors of an index of refraction, and microfacets that are
+anisotropic or not GGX's."""
 
 from __future__ import annotations
 
@@ -10,12 +11,13 @@ from .program import Program, Value
 
 @dataclass(frozen=True)
 class Highlight:
-    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h or thin_film.h, which say what they are.
+    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, thin_film.h or ashikhmin_shirley.h,
+    which say what they are.
 
     curve: what its microfacets reflect, of the lobe that `kind` names. normal: world space; None: the surface's.
     """
 
-    kind: str  # "anisotropic", "conductor" or "thin_film"
+    kind: str  # "anisotropic", "conductor", "thin_film" or "ashikhmin_shirley"
     curve: tuple[tuple[str, Value], ...]
     color: Value
     alpha_x: Value
@@ -24,6 +26,7 @@ class Highlight:
     multiscatter: bool
     normal: Value | None = None
     is_coat: bool = False
+    is_beckmann: bool = False
 
     @property
     def is_anisotropic(self) -> bool:
@@ -43,6 +46,8 @@ class Highlight:
             less, more, k2 = values["n"] - 1.0, values["n"] + 1.0, values["k"] * values["k"]
             f0 = (less * less + k2) / (more * more + k2)
             return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}
+        if self.kind == "ashikhmin_shirley":
+            return {"conductor_f0": self.color, "conductor_f90": self.color, "conductor_weight": part}
         if self.kind == "thin_film":
             bare = {"dielectric_weight": part, "dielectric_ior": values["ior"]}
             return bare | {"dielectric_tint": values["f0_tint"] * hue(self.color)}
@@ -52,14 +57,17 @@ class Highlight:
 
     def lobe(self) -> tuple[str, dict[str, Value], dict[str, float]]:
         """As Surface.core_shader gives lobes to the core: a further base where that is the same."""
-        multiscatter = {"multiscatter": float(self.multiscatter)}
+        settings = {"multiscatter": float(self.multiscatter)}
         is_grey = len(set(self.color.parts)) == 1
-        if self.kind == "anisotropic" and not self.is_anisotropic and self.normal is None and is_grey:
-            return "base", self._curve_of_base() | {"alpha": self.alpha_x}, multiscatter
+        is_plain = self.kind == "anisotropic" and not self.is_anisotropic and not self.is_beckmann
+        if is_plain and self.normal is None and is_grey:
+            return "base", self._curve_of_base() | {"alpha": self.alpha_x}, settings
         own = {"color": self.color, "alpha_x": self.alpha_x, "alpha_y": self.alpha_y, "rotation": self.rotation}
         if self.normal is not None:
             own["normal"] = self.normal.program.registers(self.normal)
-        return self.kind, dict(self.curve) | own, multiscatter
+        if self.kind == "ashikhmin_shirley":
+            return self.kind, own, {}
+        return self.kind, dict(self.curve) | own, settings | {"beckmann": float(self.is_beckmann)}
 
 
 def share(weight: Value) -> Value:

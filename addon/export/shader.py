@@ -33,7 +33,7 @@ from .nodes import (
 )
 from .principled import principled
 from .program import Program, Value
-from .shader_inputs import any_ior, emitted, ggx_alpha, is_multiscatter, let_through
+from .shader_inputs import any_ior, emitted, ggx_alpha, is_beckmann, is_multiscatter, let_through
 from .surface import Surface, added
 
 MAX_LOBES = 3  # of the core, beside a base
@@ -143,11 +143,13 @@ def _translucent(feed: Socket, owner: Owner) -> Surface:
 
 def _glossy(feed: Socket, owner: Owner) -> Surface:
     tint = colour(feed.input("Color"), owner)
-    curve = {"conductor_f0": tint, "conductor_f90": tint, "conductor_weight": owner.program.number(1.0)}
     alpha, anisotropy = ggx_alpha(feed, owner), feed.find_input("Anisotropy")
-    if anisotropy is None or is_constant(anisotropy, 0.0):
-        return _metal(feed, owner, curve, alpha)
-    return _metal(feed, owner, curve, alpha, sides_of_glossy(alpha, number(anisotropy, owner)))
+    is_even = anisotropy is None or is_constant(anisotropy, 0.0)
+    alphas = None if is_even else sides_of_glossy(alpha, number(anisotropy, owner))
+    if feed.node.distribution == "ASHIKHMIN_SHIRLEY":
+        return _metal(feed, owner, {}, alpha, alphas, "ashikhmin_shirley", tint.widened())
+    curve = {"conductor_f0": tint, "conductor_f90": tint, "conductor_weight": owner.program.number(1.0)}
+    return _metal(feed, owner, curve, alpha, alphas)
 
 
 def _metallic(feed: Socket, owner: Owner) -> Surface:
@@ -155,7 +157,7 @@ def _metallic(feed: Socket, owner: Owner) -> Surface:
     alphas = None if is_constant(anisotropy, 0.0) else sides(alpha, number(anisotropy, owner))
     if feed.node.fresnel_type == "PHYSICAL_CONDUCTOR":
         n, k = (colour(feed.input(name), owner).at_least(0.0) for name in ("IOR", "Extinction"))
-        return _metal(feed, owner, {"n": n, "k": k}, alpha, alphas or (alpha, alpha), "conductor")
+        return _metal(feed, owner, {"n": n, "k": k}, alpha, alphas, "conductor")
     base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
     return _metal(feed, owner, f82(base, edge_tint, owner.program.number(1.0)), alpha, alphas)
 
@@ -167,17 +169,26 @@ def _metal(
     alpha: Value,
     alphas: tuple[Value, Value] | None = None,
     kind: str = "anisotropic",
+    tint: Value | None = None,
 ) -> Surface:
-    """A highlight alone. alphas: GGX alpha along the tangent and across it, if it is one of axes of its own."""
-    turned, multiscatter, white = normal(feed, owner), is_multiscatter(feed, owner), owner.program.colour((1, 1, 1))
-    if alphas is None:
-        return Surface.of(owner.program, **curve, alpha=alpha, multiscatter=multiscatter, normal=turned)
-    return Surface.of(
-        owner.program,
-        highlights=(Highlight(kind, tuple(curve.items()), white, *alphas, rotation(feed, owner), multiscatter),),
-        tangent=tangent(feed, owner),
-        normal=turned,
+    """A highlight alone. alphas: GGX alpha along the tangent and across it, if they differ; tint: None for white."""
+    program, turned, multiscatter = owner.program, normal(feed, owner), is_multiscatter(feed, owner)
+    beckmann = is_beckmann(feed)
+    if alphas is None and kind == "anisotropic" and not beckmann:
+        return Surface.of(program, **curve, alpha=alpha, multiscatter=multiscatter, normal=turned)
+    about = program.number(0.0) if alphas is None else rotation(feed, owner)
+    white = program.colour((1, 1, 1))
+    highlight = Highlight(
+        kind,
+        tuple(curve.items()),
+        tint or white,
+        *(alphas or (alpha, alpha)),
+        about,
+        multiscatter,
+        is_beckmann=beckmann,
     )
+    along = None if alphas is None else tangent(feed, owner)
+    return Surface.of(program, highlights=(highlight,), tangent=along, normal=turned)
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
@@ -196,7 +207,8 @@ def _refraction(feed: Socket, owner: Owner) -> Surface:
 def _boundary(feed: Socket, owner: Owner, **given: Value | bool) -> Surface:
     film = Film.of(feed, owner)
     above = {} if film is None else film.on_dielectric()
-    dielectric = Dielectric.of(owner.program, alpha=ggx_alpha(feed, owner), ior=any_ior(feed, owner), **above, **given)
+    given |= {"alpha": ggx_alpha(feed, owner), "ior": any_ior(feed, owner), "beckmann": is_beckmann(feed)}
+    dielectric = Dielectric.of(owner.program, **above, **given)
     return Surface.of(owner.program, dielectrics=(dielectric,), normal=normal(feed, owner))
 
 

@@ -16,11 +16,16 @@ def ggx_alpha(feed: Socket, owner: Owner) -> Value:
 
 
 def is_multiscatter(feed: Socket, owner: Owner) -> bool:
+    """Whether the core gives back what single scattering between microfacets loses."""
     distribution = feed.node.distribution
-    if distribution not in {"GGX", "MULTI_GGX", "SHARP"}:
+    if distribution not in {"GGX", "MULTI_GGX", "SHARP", "BECKMANN", "ASHIKHMIN_SHIRLEY"}:
         name = feed.node.bl_rna.properties["distribution"].enum_items[distribution].name
         owner.warn(feed.node, f"{name} is not supported, it is shown as GGX")
     return distribution == "MULTI_GGX"
+
+
+def is_beckmann(feed: Socket) -> bool:
+    return feed.node.distribution == "BECKMANN"
 
 
 def any_ior(feed: Socket, owner: Owner) -> Value:

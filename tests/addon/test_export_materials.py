@@ -266,7 +266,8 @@ def test_nearest_meanings(host: Host, materials: dict[str, Any]) -> None:
     principled_ior = 2 if host.version >= (4, 0) else 1.5
     check(materials["bubble"], **principled(host, (0.8,) * 3), dielectric_weight=1, dielectric_ior=principled_ior)
     check(materials["oren_nayar"], lobes=[("oren_nayar", {"color": RED, "weight": RED})])
-    check(materials["beckmann"], conductor_f0=RED, conductor_f90=RED, conductor_weight=1, alpha=0.25)
+    check(materials["beckmann"], lobes=[("anisotropic", {"color": (1, 1, 1), "conductor_f0": RED})])
+    assert materials["beckmann"]["lobes"][0][1]["beckmann"] == 1
     assert materials["coated"]["transparency"] == pytest.approx((0.5,) * 3)
     assert materials["coated"]["opacity"] == pytest.approx(0.5)
     check(materials["smoke"], diffuse=RED)
@@ -286,7 +287,6 @@ def test_each_approximation_is_said_once_and_nothing_else(host: Host, cases: Any
         said.setdefault(found[2], []).append(found[3])
     expected: dict[str, list[str | None]] = {
         "no_image": ["Image Texture"],
-        "beckmann": ["Glossy BSDF"],
         "fog": ["Principled Volume"],
         "many_highlights": [None],
     }

@@ -1,4 +1,4 @@
-"""Pivot and Cycles, in one Blender, agree on anisotropic highlights, coats and metals."""
+"""Pivot and Cycles, in one Blender, agree on anisotropic highlights, other microfacets, coats and metals."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from beside_cycles import assert_alike
 from blender_host import Host
 
-CASES = {"brushed": (3, 4), "coats": (4, 0), "metals": (4, 3)}  # from which Blender on
+CASES = {"brushed": (3, 4), "facets": (3, 4), "coats": (4, 0), "metals": (4, 3)}  # from which Blender on
 
 
 @pytest.fixture(scope="module")

@@ -49,9 +49,10 @@ def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
 
 
 def with_closed_form(lobe: tuple[str, dict[str, object]]) -> tuple[str, dict[str, object]]:
-    """What of a lobe the analytic integrator shows: of a dielectric what it mirrors outside, without a film."""
+    """What of a lobe the analytic integrator shows: of a dielectric what GGX mirrors outside, without a film."""
     kind, values = lobe
-    return (kind, values | {"transmission": (0, 0, 0), "ior": 1.5, "film_nm": 0.0}) if kind == "dielectric" else lobe
+    shown = {"transmission": (0, 0, 0), "ior": 1.5, "film_nm": 0.0, "beckmann": 0.0}
+    return (kind, values | shown) if kind == "dielectric" else lobe
 
 
 @functools.cache

@@ -1,5 +1,5 @@
-// GGX highlights about axes of their own: rougher along one than along the other, and about a normal that need not be
-// the surface's. What their microfacets reflect is a curve, of which each kind of lobe has another.
+// Highlights about axes of their own: rougher along one than along the other, and about a normal that need not be the
+// surface's. What their microfacets, GGX's or Beckmann's, reflect is a curve, of which each kind of lobe has another.
 //
 // multiscatter gives back what single scattering loses of the GGX lobe of alpha sqrt(alpha_x alpha_y), as in Cycles:
 // an anisotropic one may lose more. What they reflect in all is summed over fixed points.
@@ -7,6 +7,7 @@
 
 #include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
+#include "core/bsdf/microfacets.h"
 #include "core/sampling/warp.h"
 #include "core/tables/ggx_albedo.h"
 
@@ -14,31 +15,32 @@ namespace pivot {
 
 /// Microfacets in the shading frame. Directions below the surface, or below the microfacets' own, see none of them.
 template <class T>
-struct GgxFacets {
+struct TurnedFacets {
     Vec3<T> x, z;  ///< unit: the axis of alpha_x, and their normal
-    T alpha_x, alpha_y;
+    MicrofacetsOf<T> facets;
 
-    static GgxFacets turned(const Vec3<T>& normal, T rotation, T alpha_x, T alpha_y) {
+    static TurnedFacets turned(const Vec3<T>& normal, T rotation, T alpha_x, T alpha_y, T beckmann) {
         const Vec3<T> x(T(1), T(0), T(0)), z(T(0), T(0), T(1));
         const Frame<T> about = frame_from_z(select(length_squared(normal) > T(0), normal, z), x);
         const T angle = T(2) * pi<T> * rotation;
         const auto clamped = [](T alpha) { return min(max(alpha, T(min_alpha)), T(1)); };
-        return {cos(angle) * about.x + sin(angle) * about.y, about.z, clamped(alpha_x), clamped(alpha_y)};
+        return {cos(angle) * about.x + sin(angle) * about.y, about.z, {clamped(alpha_x), clamped(alpha_y), beckmann}};
     }
-    T alpha_all_around() const { return sqrt(alpha_x * alpha_y); }
+    T alpha_all_around() const { return sqrt(facets.alpha_x * facets.alpha_y); }
 
     Frame<T> frame() const { return {x, cross(z, x), z}; }
     /// BRDF times cosine without Fresnel, and the density of sample().
     T eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         const Vec3<T> wo = frame().to_local(wo_local), wi = frame().to_local(wi_local);
-        return select(sees(wo, wi, wi_local), ggx_eval(wo, wi, alpha_x, alpha_y), T(0));
+        return select(sees(wo, wi, wi_local), facets.eval(wo, wi), T(0));
     }
     T pdf_omega(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         const Vec3<T> wo = frame().to_local(wo_local), wi = frame().to_local(wi_local);
-        return select(sees(wo, wi, wi_local), ggx_pdf_omega(wo, wi, alpha_x, alpha_y), T(0));
+        return select(sees(wo, wi, wi_local), facets.pdf_omega(wo, wi), T(0));
     }
     Vec3<T> sample(const Vec3<T>& wo_local, const Vec2<T>& u) const {
-        const Vec3<T> wi = ggx_sample(frame().to_local(wo_local), alpha_x, alpha_y, u);
+        const Vec3<T> wo = frame().to_local(wo_local), h = facets.sample_normal(wo, u);
+        const Vec3<T> wi = T(2) * dot(wo, h) * h - wo;
         const Vec3<T> wi_local = frame().to_world(wi);
         return {wi_local.x, wi_local.y, select(wi.z > T(0), wi_local.z, min(wi_local.z, T(0)))};
     }
@@ -48,13 +50,13 @@ struct GgxFacets {
     Vec3<T> albedo(const Curve& curve, const Vec3<T>& wo_local) const {
         constexpr std::size_t count = 16;
         const Vec3<T> wo = frame().to_local(wo_local);
-        const T g1 = ggx_g1(wo, alpha_x, alpha_y);
+        const T g1 = facets.g1(wo);
         Vec3<T> sum(T(0));
         for (std::size_t k = 0; k < count; ++k) {
-            const Vec3<T> h = ggx_sample_normal(wo, alpha_x, alpha_y, golden_point(T(static_cast<float>(k)), count));
+            const Vec3<T> h = facets.sample_normal(wo, golden_point(T(static_cast<float>(k)), count));
             const T cos_oh = dot(wo, h);
             const Vec3<T> wi = T(2) * cos_oh * h - wo;
-            const T kept = ggx_g2(wo, wi, alpha_x, alpha_y) / g1;
+            const T kept = facets.g2(wo, wi) / g1;
             sum += select(sees(wo, wi, frame().to_world(wi)), curve.at(cos_oh) * kept, Vec3<T>(T(0)));
         }
         return sum / T(static_cast<float>(count));
@@ -88,7 +90,7 @@ struct BaseCurves {
 
     LobeFresnelOf<T> fresnel;
 
-    static BaseCurves seen(const Parameters& p, const GgxFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
+    static BaseCurves seen(const Parameters& p, const TurnedFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
         const BaseOf<T> base = make_base(BaseMaterialOf<T>{.alpha = facets.alpha_all_around(),
                                                            .conductor_f0 = p.conductor_f0,
                                                            .conductor_f90 = p.conductor_f90,
@@ -122,7 +124,7 @@ struct ConductorCurve {
 
     Vec3<T> n, k, color;
 
-    static ConductorCurve seen(const Parameters& p, const GgxFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
+    static ConductorCurve seen(const Parameters& p, const TurnedFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
         ConductorCurve curve{p.n, p.k, p.color};
         const Mask<T> gives_back = multiscatter > T(0);
         if (any(gives_back)) {
@@ -156,6 +158,7 @@ struct OwnAxesLobe {
         T rotation = T(0);      ///< of the axes about the normal, from x of the shading frame, in turns
         Vec3<T> normal{T(0)};   ///< in the shading frame; none: the surface's own
         T multiscatter = T(0);  ///< 1: give back what single scattering loses between microfacets; 0: do not
+        T beckmann = T(0);      ///< 1: Beckmann's distribution; 0: GGX
 
         template <class LocalOf>
         void turn_normals(const LocalOf& local_of, const Mask<T>& where) {
@@ -168,47 +171,47 @@ struct OwnAxesLobe {
         std::array{LobeParameter{"alpha_x", 1, 0.0f, 1.0f}, LobeParameter{"alpha_y", 1, 0.0f, 1.0f},
                    LobeParameter{"rotation", 1, -1e3f, 1e3f},
                    LobeParameter{"normal", 3, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max()},
-                   LobeParameter{"multiscatter", 1, 0.0f, 1.0f}});
+                   LobeParameter{"multiscatter", 1, 0.0f, 1.0f}, LobeParameter{"beckmann", 1, 0.0f, 1.0f}});
     static constexpr bool reflects = true, transmits = false, has_closed_form = false;
 
-    GgxFacets<T> facets;
+    TurnedFacets<T> turned;
     Curve curve;
     Vec3<T> albedo_seen;
 
     static OwnAxesLobe seen(const Parameters& p, const Vec3<T>& wo_local) {
-        const GgxFacets<T> facets = GgxFacets<T>::turned(p.normal, p.rotation, p.alpha_x, p.alpha_y);
-        const Vec3<T> wo = facets.frame().to_local(wo_local);
+        const TurnedFacets<T> turned = TurnedFacets<T>::turned(p.normal, p.rotation, p.alpha_x, p.alpha_y, p.beckmann);
+        const Vec3<T> wo = turned.frame().to_local(wo_local);
         const Vec3<T> above(wo.x, wo.y, max(wo.z, T(1e-4f)));
-        const Curve curve = Curve::seen(p.curve, facets, above, p.multiscatter);
-        return {facets, curve, facets.albedo(curve, wo_local)};
+        const Curve curve = Curve::seen(p.curve, turned, above, p.multiscatter);
+        return {turned, curve, turned.albedo(curve, wo_local)};
     }
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
-        const T value = facets.eval(wo_local, wi_local), cos_oh = dot(wo_local, normalize(wo_local + wi_local));
+        const T value = turned.eval(wo_local, wi_local), cos_oh = dot(wo_local, normalize(wo_local + wi_local));
         return select(value > T(0), curve.at(cos_oh) * value, Vec3<T>(T(0)));
     }
-    T pdf_omega(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const { return facets.pdf_omega(wo_local, wi_local); }
-    Vec3<T> sample(const Vec3<T>& wo_local, T, const Vec2<T>& u) const { return facets.sample(wo_local, u); }
+    T pdf_omega(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const { return turned.pdf_omega(wo_local, wi_local); }
+    Vec3<T> sample(const Vec3<T>& wo_local, T, const Vec2<T>& u) const { return turned.sample(wo_local, u); }
     Vec3<T> albedo(const Vec3<T>&) const { return albedo_seen; }
     Vec3<T> diffuse() const { return Vec3<T>(T(0)); }
     /// As rough all around.
     BaseOf<T> closed_form(const Vec3<T>& wo_local) const {
         return {.wo_local = wo_local,
                 .diffuse = Vec3<T>(T(0)),
-                .alpha = facets.alpha_all_around(),
+                .alpha = turned.alpha_all_around(),
                 .fresnel = curve.as_of_base(),
                 .glossy_probability = select(max_component(albedo_seen) > T(0), T(1), T(0))};
     }
     T highlight_probability() const { return T(1); }
     void add_highlights(HighlightsOf<T>& highlights, const Vec3<T>&, const Mask<T>& where) const {
-        HighlightOf<T> own = highlight_about_normal(facets.alpha_x, curve.as_of_base());
-        own.frame = facets.frame();
-        own.alpha_y = facets.alpha_y;
+        HighlightOf<T> own = highlight_about_normal(turned.facets.alpha_x, curve.as_of_base());
+        own.frame = turned.frame();
+        own.alpha_y = turned.facets.alpha_y;
         highlights.add(own, where);
     }
     OwnAxesLobe blurred(T least_alpha) const {
         OwnAxesLobe result = *this;
-        result.facets.alpha_x = max(facets.alpha_x, least_alpha);
-        result.facets.alpha_y = max(facets.alpha_y, least_alpha);
+        result.turned.facets.alpha_x = max(turned.facets.alpha_x, least_alpha);
+        result.turned.facets.alpha_y = max(turned.facets.alpha_y, least_alpha);
         return result;
     }
 };

@@ -12,6 +12,7 @@
 
 #include "core/bsdf/highlight.h"
 #include "core/bsdf/lobe_record.h"
+#include "core/bsdf/microfacets.h"
 #include "core/bsdf/thin_film.h"
 #include "core/tables/ggx_albedo.h"
 #include "core/tables/ggx_glass.h"
@@ -31,6 +32,7 @@ struct Dielectric {
         T weight = T(1);             ///< the share of the surface that it is, multiplied into both colours
         T film_ior = T(1.33f);       ///< of a thin film on it, over that before the surface's front
         T film_nm = T(0);            ///< the film's thickness
+        T beckmann = T(0);           ///< 1: Beckmann's distribution of microfacets; 0: GGX
 
         /// As it is seen from behind, where that is so.
         void turn_over(const Mask<T>& is_behind) {
@@ -45,7 +47,8 @@ struct Dielectric {
         LobeParameter{"f0_tint", 3, 0.0f, most},      LobeParameter{"alpha", 1, 0.0f, 1.0f},
         LobeParameter{"ior", 1, 1e-5f, most},         LobeParameter{"fresnel", 1, 0.0f, 1.0f},
         LobeParameter{"multiscatter", 1, 0.0f, 1.0f}, LobeParameter{"weight", 1, 0.0f, most},
-        LobeParameter{"film_ior", 1, 1e-5f, most},    LobeParameter{"film_nm", 1, 0.0f, most}};
+        LobeParameter{"film_ior", 1, 1e-5f, most},    LobeParameter{"film_nm", 1, 0.0f, most},
+        LobeParameter{"beckmann", 1, 0.0f, 1.0f}};
     static constexpr bool reflects = true, transmits = true, has_closed_form = true;
 
     Vec3<T> reflection, transmission, f0_tint;
@@ -53,6 +56,7 @@ struct Dielectric {
     T fresnel;
     Vec3<T> reflected, refracted;  ///< albedo, by the side that the light comes from
     ThinFilmOf<T> film;
+    T beckmann;
 
     static Dielectric seen(const Parameters& material, const Vec3<T>& wo_local) {
         const T one(1), alpha = min(max(material.alpha, T(min_alpha)), one), eta = distinct(material.ior);
@@ -66,7 +70,8 @@ struct Dielectric {
                         .fresnel = material.fresnel,
                         .reflected = Vec3<T>(T(0)),
                         .refracted = Vec3<T>(T(0)),
-                        .film = {material.film_ior, material.film_nm}};
+                        .film = {material.film_ior, material.film_nm},
+                        .beckmann = material.beckmann};
         if (const Mask<T> multiscatter = material.multiscatter > T(0); any(multiscatter)) {
             // Most of the colour is that of what comes through.
             const Vec3<T> color = min(material.transmission / max(material.weight, T(1e-6f)), Vec3<T>(one));
@@ -89,13 +94,18 @@ struct Dielectric {
         const T all = facets.refracted + select(eta < one, facets.refracted * (f0 / (one - f0)), facets.reflected);
         lobe.reflected = lobe.reflection * mirrored;
         lobe.refracted = lobe.transmission * (Vec3<T>(all) + (Vec3<T>(kept - all) - mirrored) * material.fresnel);
+        if (const Mask<T> is_beckmann = lobe.distribution().is_beckmann(); any(is_beckmann)) {
+            const auto [above, below] = lobe.summed_albedo(wo_local);
+            lobe.reflected = select(is_beckmann, above, lobe.reflected);
+            lobe.refracted = select(is_beckmann, below, lobe.refracted);
+        }
         return lobe;
     }
 
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         const Facet facet = facet_between(wo_local, wi_local);
         const Split split = split_at(facet.cos_oh);
-        const T g2 = ggx_g2(wo_local, wi_local, alpha, alpha);
+        const T g2 = distribution().g2(wo_local, wi_local);
         return select(facet.is_valid,
                       select(facet.is_reflected, split.reflected, split.refracted) * (facet.density * g2),
                       Vec3<T>(T(0)));
@@ -104,20 +114,20 @@ struct Dielectric {
         const Facet facet = facet_between(wo_local, wi_local);
         const T reflects_probability = split_at(facet.cos_oh).reflects_probability();
         const T probability = select(facet.is_reflected, reflects_probability, T(1) - reflects_probability);
-        return select(facet.is_valid, probability * facet.density * ggx_g1(wo_local, alpha, alpha), T(0));
+        return select(facet.is_valid, probability * facet.density * distribution().g1(wo_local), T(0));
     }
     Vec3<T> sample(const Vec3<T>& wo_local, T u_lobe, const Vec2<T>& u) const {
-        const Vec3<T> h = ggx_sample_normal(wo_local, alpha, alpha, u);
+        const Vec3<T> h = distribution().sample_normal(wo_local, u);
         const auto [above, below] = directions_by(h, wo_local);
         return select(u_lobe < split_at(dot(wo_local, h)).reflects_probability(), above, below);
     }
     /// Where one facet sends light to wo from: mirrored, and from the other side.
     std::array<FacetRayOf<T>, 2> facet_rays(const Vec3<T>& wo_local, const Vec2<T>& u) const {
-        const Vec3<T> h = ggx_sample_normal(wo_local, alpha, alpha, u);
+        const Vec3<T> h = distribution().sample_normal(wo_local, u);
         const auto [above, below] = directions_by(h, wo_local);
         const Split split = split_at(dot(wo_local, h));
-        const T g1 = ggx_g1(wo_local, alpha, alpha);
-        const auto shadowing = [&](const Vec3<T>& wi_local) { return ggx_g2(wo_local, wi_local, alpha, alpha) / g1; };
+        const T g1 = distribution().g1(wo_local);
+        const auto shadowing = [&](const Vec3<T>& wi_local) { return distribution().g2(wo_local, wi_local) / g1; };
         const Vec3<T> none(T(0));
         return {FacetRayOf<T>{above, select(above.z > T(0), split.reflected * shadowing(above), none)},
                 FacetRayOf<T>{below, select(below.z < T(0), split.refracted * shadowing(below), none)}};
@@ -150,6 +160,20 @@ struct Dielectric {
     }
 
    private:
+    MicrofacetsOf<T> distribution() const { return {alpha, alpha, beckmann}; }
+
+    /// Of microfacets that no table knows: what some of them reflect and refract.
+    std::array<Vec3<T>, 2> summed_albedo(const Vec3<T>& wo_local) const {
+        constexpr std::size_t count = 32;
+        std::array<Vec3<T>, 2> sums{Vec3<T>(T(0)), Vec3<T>(T(0))};
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto rays = facet_rays(wo_local, golden_point(T(static_cast<float>(k)), count));
+            for (std::size_t side = 0; side < 2; ++side)
+                sums[side] += rays[side].worth * T(1.0f / static_cast<float>(count));
+        }
+        return sums;
+    }
+
     /// Media of one index let light pass straight on, which no density stands for; so near to it, nothing bends.
     static T distinct(T ior) {
         constexpr float least_step = 1e-4f, most_ior = 1e3f;
@@ -170,7 +194,7 @@ struct Dielectric {
         const Vec3<T> h = sum * select(sum.z < T(0), -inverse_length, inverse_length);
         const T cos_oh = dot(wo_local, h), cos_ih = dot(wi_local, h);
         const T refracts = sqr(eta * inverse_length) * cos_oh * abs(cos_ih);  // [Walter07 (17)]
-        const T density = ggx_ndf(h, alpha, alpha) * select(is_reflected, T(0.25f), refracts) / wo_local.z;
+        const T density = distribution().ndf(h) * select(is_reflected, T(0.25f), refracts) / wo_local.z;
         return {cos_oh, density, is_reflected, cos_oh > T(0) && wi_local.z * cos_ih > T(0)};
     }
 

@@ -27,7 +27,7 @@ struct ThinFilmCurve {
     ThinFilmOf<T> film;
     Vec3<T> f0_tint, color;
 
-    static ThinFilmCurve seen(const Parameters& p, const GgxFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
+    static ThinFilmCurve seen(const Parameters& p, const TurnedFacets<T>& facets, const Vec3<T>& wo, T multiscatter) {
         const T ior = max(p.ior, T(1.0001f));
         const BaseOf<T> bare = make_base(BaseMaterialOf<T>{.alpha = facets.alpha_all_around(),
                                                            .dielectric_weight = T(1),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -51,13 +52,23 @@ def main(folder: Path) -> Any:
 
 
 def _scene(name: str, kind: str, inputs: dict[str, Any]) -> None:
+    distribution = inputs.pop("distribution", "GGX" if kind.endswith("Principled") else None)
+
+    def make() -> Any:
+        material, node = parts.shaded(name, kind, **inputs)
+        if distribution:
+            node.distribution = distribution
+        return material
+
+    dress(make)
+
+
+def dress(make: Callable[[], Any]) -> None:
+    """Two balls and a floor of the material that is made once the scene is empty, and lights."""
     parts.clear()
     parts.size(48, 32)
     parts.camera((0, -7, 0.9), (math.radians(90), 0, 0)).data.lens = 45
-    distribution = inputs.pop("distribution", "GGX" if kind.endswith("Principled") else None)
-    material, node = parts.shaded(name, kind, **inputs)
-    if distribution:
-        node.distribution = distribution
+    material = make()
     parts.quad("floor", material=material).scale = (8, 8, 1)
     _ball("left", (-1.2, 0, 1), material)
     _ball("right", (1.2, 1, 1), material)

@@ -1,4 +1,5 @@
-"""Anisotropic highlights, coats and metals by their index of refraction, rendered by Cycles and by Pivot.
+"""Anisotropic highlights, those that are not GGX's, coats and metals by their index of refraction, rendered by Cycles
+and by Pivot.
 
 Before Blender 4.0 Principled is another than what Pivot follows, and only Glossy BSDF is compared.
 """
@@ -20,7 +21,7 @@ COATED = {"Base_Color": PAINT, "Roughness": 0.6, "Coat_Weight": 1.0}
 
 
 def cases() -> list[str]:
-    return ["brushed"] + ([] if OLD else ["coats"]) + (["metals"] if bpy.app.version >= (4, 3) else [])
+    return ["brushed", "facets"] + ([] if OLD else ["coats"]) + (["metals"] if bpy.app.version >= (4, 3) else [])
 
 
 def main(folder: Path) -> Any:
@@ -77,6 +78,20 @@ def _brushed() -> None:
     nodes = _place(*looks)
     _feed(nodes[2], "Tangent", "ShaderNodeTangent", direction_type="UV_MAP")
     _feed(nodes[1], "Tangent", "ShaderNodeTangent", direction_type="RADIAL", axis="X")
+
+
+def _facets() -> None:
+    """Beckmann's and Ashikhmin's and Shirley's."""
+    brushed = "ShaderNodeBsdfAnisotropic"
+    inputs = {"Color": GOLD, "Roughness": 0.5}
+    looks = [
+        ("ShaderNodeBsdfGlossy", "BECKMANN", inputs),
+        (brushed, "BECKMANN", inputs | {"Anisotropy": 0.6}),
+        (brushed, "ASHIKHMIN_SHIRLEY", inputs),
+        (brushed, "ASHIKHMIN_SHIRLEY", inputs | {"Anisotropy": -0.6}),
+        ("ShaderNodeBsdfGlossy", "BECKMANN", inputs | {"Roughness": 0.9}),
+    ]
+    _place(*looks)
 
 
 def _coats() -> None:
