@@ -57,15 +57,16 @@ std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings
 }
 
 /// Adds what media bring along rays, and takes from what the rays are worth behind them.
-void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, const ShadowPoints& points,
-                 std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays, std::span<Sample> samples) {
+void cross_media(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights, std::uint32_t bounce,
+                 const ShadowPoints& points, std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays,
+                 std::span<Sample> samples) {
     MediaRay media_ray(scene.media());
     for (std::size_t i = 0; i < rays.size(); ++i) {
         LookRay& look = rays[i];
         Ray ray = look.ray;
         if (hits[i]) ray.far_m = hits[i]->distance_m;
         media_ray.follow(ray, nullptr);
-        const FogLight fog = scatter_analytic(scene, settings, points, media_ray);
+        const FogLight fog = scatter_analytic(scene, settings, lights, points, media_ray);
         Sample& sample = samples[look.sample];
         const Rgb scattered = look.worth * fog.scattered, emitted = look.worth * fog.emitted;
         const float weight = mean_component(look.worth);
@@ -102,7 +103,7 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         std::vector<std::uint32_t> met;
         for (const LookRay& look : rays) bare.push_back(look.ray), met.push_back(met_by(look.ray_kind));
         scene.intersect(bare, met, hits);
-        if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples);
+        if (!scene.media().is_empty()) cross_media(scene, settings, lights, bounce, points, hits, rays, samples);
         const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples);
         const std::vector<Gathered> light =
             gather_light(scene, settings, lights, points, bounce, surfaces, pixels, sample_index, shared);

@@ -2,6 +2,7 @@
 // lamp in closed form, and the share of it that is seen is traced to fixed points.
 #pragma once
 
+#include "core/integrators/analytic_lights.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/fog_lamp.h"
 
@@ -15,8 +16,8 @@ struct FogLight {
 };
 
 /// ray: followed without a stream of numbers.
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const ShadowPoints& points,
-                          const MediaRay& ray);
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                          const ShadowPoints& points, const MediaRay& ray);
 
 /// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray);
