@@ -5,6 +5,7 @@
 #include "bindings/names.h"
 #include "bindings/register.h"
 #include "core/integrators/direct_light.h"
+#include "core/integrators/fog_lamp.h"
 #include "core/integrators/light_choice.h"
 #include "core/integrators/light_sampler.h"
 
@@ -145,6 +146,53 @@ py::array_t<float> choice_probabilities(Scene& scene, const OwnedMaterial& mater
     return probabilities;
 }
 
+/// Fog of one lobe of Henyey and Greenstein's.
+MediumMix even_fog(float g) {
+    if (!(std::abs(g) <= max_abs_phase_g)) throw py::value_error("g must be above -1 and below 1");
+    MediumMix mix{.sigma_s = Rgb(1.0f), .sigma_t = Rgb(1.0f), .emission = Rgb(0.0f), .lobes = {}};
+    mix.lobes.push_back({Rgb(1.0f), {PhaseKind::henyey_greenstein, g}});
+    mix.total_weight = MediumMix::weight(mix.lobes[0]);
+    return mix;
+}
+
+py::tuple fog_lamp_samples(const Light& lamp, float g, const Triple& position, const Triple& direction,
+                           const FloatArray& u) {
+    require_shape(u, "u", {-1, 2});
+    const MediumMix mix = even_fog(g);
+    const Vec3b from = broadcast(to_vec3(position)), travels = broadcast(normalize(to_vec3(direction)));
+    const py::ssize_t count = u.shape(0);
+    py::array_t<float> wi({count, py::ssize_t(3)}), pdf_omega(count);
+    for (py::ssize_t first = 0; first < count; first += batch_size) {
+        const auto lanes = static_cast<std::size_t>(std::min(static_cast<py::ssize_t>(batch_size), count - first));
+        const auto column = [&](int c) {
+            return gather(
+                [&](std::size_t i) { return i < lanes ? u.at(first + static_cast<py::ssize_t>(i), c) : 0.5f; });
+        };
+        const LampSamples samples = sample_lamp(lamp, mix, from, travels, {column(0), column(1)});
+        const std::array<Lanes, 3> xyz{store(samples.wi.x), store(samples.wi.y), store(samples.wi.z)};
+        const Lanes pdf = store(samples.pdf_omega);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const py::ssize_t row = first + static_cast<py::ssize_t>(i);
+            for (int c = 0; c < 3; ++c) wi.mutable_at(row, c) = xyz[static_cast<std::size_t>(c)][i];
+            pdf_omega.mutable_at(row) = pdf[i];
+        }
+    }
+    return py::make_tuple(wi, pdf_omega);
+}
+
+py::array_t<float> fog_lamp_pdf(const Light& lamp, float g, const Triple& position, const Triple& direction,
+                                const FloatArray& wi) {
+    require_shape(wi, "wi", {-1, 3});
+    const Vec3f from = to_vec3(position);
+    const FogLampSampler sampler(lamp, even_fog(g), from, normalize(to_vec3(direction)), LightSampling::joint);
+    py::array_t<float> pdf_omega(wi.shape(0));
+    for (py::ssize_t i = 0; i < wi.shape(0); ++i) {
+        const auto place = intersect_light(lamp, from, {wi.at(i, 0), wi.at(i, 1), wi.at(i, 2)});
+        pdf_omega.mutable_at(i) = place ? sampler.pdf_omega(*place) : 0.0f;
+    }
+    return pdf_omega;
+}
+
 /// Each node as (child (n,), mean (n, 3), variance_m2 (n,), ...): see below.
 py::list light_tree(Scene& scene) {
     const SceneHold hold(scene);
@@ -199,6 +247,15 @@ void register_light_samples(py::module_& module) {
         "direction; variance_m2 (n,) of places about it, across any line of sight; bound_m (n,), how far parts are "
         "from it at most; intensity (n,) in W/sr towards any side at most, the mean over colours; axis (n, 3), where "
         "it shines most, or 0; sharpness (n,) of that Gaussian).");
+    module.def("fog_lamp_samples", &fog_lamp_samples, py::arg("light"), py::arg("g"), py::arg("position"),
+               py::arg("direction"), py::arg("u"),
+               "fog_lamp_samples(light, g, position, direction, u): what u (n, 2) in [0, 1) sample of a lamp from a "
+               "place in fog of Henyey and Greenstein's phase function that a ray along `direction` crosses: wi (n, 3) "
+               "and their density per steradian (n,).");
+    module.def("fog_lamp_pdf", &fog_lamp_pdf, py::arg("light"), py::arg("g"), py::arg("position"), py::arg("direction"),
+               py::arg("wi"),
+               "fog_lamp_pdf(light, g, position, direction, wi): the density of fog_lamp_samples at wi (n, 3), 0 "
+               "beside the lamp: (n,).");
 }
 
 }  // namespace pivot::bindings

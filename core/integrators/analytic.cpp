@@ -60,9 +60,9 @@ std::vector<LookedAt> look_at(const Scene& scene, const RenderSettings& settings
 }
 
 /// Adds what media bring along rays, and takes from what the rays are worth behind them.
-void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce, const ShadowPoints& points,
-                 std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays, std::span<Sample> samples,
-                 GroupLight* groups) {
+void cross_media(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights, std::uint32_t bounce,
+                 const ShadowPoints& points, std::span<const std::optional<RayHit>> hits, std::span<LookRay> rays,
+                 std::span<Sample> samples, GroupLight* groups) {
     MediaRay media_ray(scene.media());
     for (std::size_t i = 0; i < rays.size(); ++i) {
         LookRay& look = rays[i];
@@ -74,7 +74,7 @@ void cross_media(const Scene& scene, const RenderSettings& settings, std::uint32
             on_light = [&](std::uint32_t group, const Rgb& light) {
                 groups->add(look.sample, group, look.worth * light);
             };
-        const FogLight fog = scatter_analytic(scene, settings, bounce, points, media_ray, on_light);
+        const FogLight fog = scatter_analytic(scene, settings, lights, bounce, points, media_ray, on_light);
         Sample& sample = samples[look.sample];
         const Rgb scattered = look.worth * fog.scattered, emitted = look.worth * fog.emitted;
         const float weight = mean_component(look.worth);
@@ -111,7 +111,8 @@ void shade_analytic(const Scene& scene, const RenderSettings& settings, const An
         std::vector<std::uint32_t> met;
         for (const LookRay& look : rays) bare.push_back(look.ray), met.push_back(met_by(look.ray_kind));
         scene.intersect(bare, met, hits);
-        if (!scene.media().is_empty()) cross_media(scene, settings, bounce, points, hits, rays, samples, groups);
+        if (!scene.media().is_empty())
+            cross_media(scene, settings, lights, bounce, points, hits, rays, samples, groups);
         const std::vector<LookedAt> surfaces = look_at(scene, settings, bounce, rays, hits, memory, samples, groups);
         const std::vector<Gathered> light =
             gather_light(scene, settings, lights, points, bounce, surfaces, pixels, sample_index, shared, groups);

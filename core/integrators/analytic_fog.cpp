@@ -63,6 +63,14 @@ Rgb integrate(LampInFog& lamp, const DistanceMap& map, std::size_t panels) {
     return sum;
 }
 
+/// A shadow ray's length: rays must not meet the triangle of a mesh that they ask for.
+float shadow_reach_m(const Light& light, const LightPoint& point) {
+    const float reach_m = point.distance_m * shadow_reach;
+    const auto* area = std::get_if<AreaLight>(&light);
+    if (!area) return reach_m;
+    return reach_m - surface_error_m(*area) / std::max(std::abs(dot(point.wi, area->normal)), tiny<float>);
+}
+
 /// Which share of the light that comes to the ray is seen there.
 VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp, const MediaRay& ray,
                         const ScatterTable& table, const ShadowPoints& points) {
@@ -78,8 +86,9 @@ VisibleShare seen_share(const Scene& scene, const Light& light, LampInFog& lamp,
             if (!point || !(point->pdf_omega > 0.0f)) continue;
             const Rgb scattered = lamp.typical().scattered(ray.ray().direction, point->wi) * point->radiance;
             // Beside the table, which has the rest in it.
-            const float weight = sampler.shares_with_phase() ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f;
-            rays.add({position, point->wi, 0.0f, point->distance_m * shadow_reach, ray.ray().time}, true,
+            const float weight =
+                std::holds_alternative<AreaLight>(light) ? mean_component(abs(scattered)) / point->pdf_omega : 1.0f;
+            rays.add({position, point->wi, 0.0f, shadow_reach_m(light, *point), ray.ray().time}, true,
                      {&share, weight, 0.0f});
         }
     };
@@ -102,8 +111,9 @@ Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray) 
         float weights = 0.0f;
         for (const Vec2f& place : {Vec2f(-0.5f, -0.5f), Vec2f(0.5f, -0.5f), Vec2f(-0.5f, 0.5f), Vec2f(0.5f, 0.5f)}) {
             const Vec3f d = area->center + place.x * area->half_u + place.y * area->half_v - position;
-            const float distance_m = length(d),
-                        weight = -dot(d, area->normal) / std::max(distance_m * sqr(distance_m), tiny<float>);
+            const float distance_m = length(d), cosine = dot(d, area->normal),
+                        weight = (area->is_two_sided() ? std::abs(cosine) : -cosine) /
+                                 std::max(distance_m * sqr(distance_m), tiny<float>);
             if (!(weight > 0.0f)) continue;
             sum += weight * from(d / distance_m, distance_m);
             weights += weight;
@@ -130,17 +140,16 @@ void apply_media(const Scene& scene, const Light& light, const SurfaceBatch& bat
     }
 }
 
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
-                          const ShadowPoints& points, const MediaRay& ray, const OnFogLight& on_light) {
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                          std::uint32_t bounce, const ShadowPoints& points, const MediaRay& ray,
+                          const OnFogLight& on_light) {
     FogLight result;
     result.emitted = ray.emitted();
     const float budget = 0.01f * settings.error_budget_percent;
     MediaRay to_lamp(scene.media());
     for (std::size_t i = 0; i < ray.size(); ++i) {
         if (on_light) on_light(ray.light_group_in(i), ray.before(i) * ray.emitted_in(i));
-        for (std::size_t place = 0; place < scene.lamps().size(); ++place) {
-            const Light& light = scene.light(place);
-            const LightRules rules = scene.has_light_rules() ? scene.rules_of(place) : LightRules{};
+        for (const auto& [light, rules, group] : lights.exact) {
             if (!(rules.lights & visible_to_scatter) || bounce > rules.max_bounces ||
                 !is_receiver(rules.links, ray.link_sets_in(i)))
                 continue;
@@ -171,7 +180,7 @@ FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, st
             const float size = mean_component(abs(whole)) * share.value();
             const Rgb scattered = whole * share.color();
             result.scattered += scattered;
-            if (on_light) on_light(scene.light_group_of(place), scattered);
+            if (on_light) on_light(group, scattered);
             result.error += size * (error + error_over_lamp);
             result.shadow_variance += sqr(mean_component(abs(whole))) * share.variance();
         }

@@ -2,6 +2,7 @@
 // lamp in closed form, and the share of it that is seen is traced to fixed points.
 #pragma once
 
+#include "core/integrators/analytic_lights.h"
 #include "core/integrators/cap_light_shading.h"
 #include "core/integrators/fog_lamp.h"
 
@@ -18,8 +19,9 @@ struct FogLight {
 using OnFogLight = std::function<void(std::uint32_t group, const Rgb& light)>;
 
 /// After so many bounces. ray: followed without a stream of numbers. on_light: may be empty.
-FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, std::uint32_t bounce,
-                          const ShadowPoints& points, const MediaRay& ray, const OnFogLight& on_light);
+FogLight scatter_analytic(const Scene& scene, const RenderSettings& settings, const AnalyticLights& lights,
+                          std::uint32_t bounce, const ShadowPoints& points, const MediaRay& ray,
+                          const OnFogLight& on_light);
 
 /// What media leave of a lamp's light to a place: by its centre, an area lamp by four places on it.
 Rgb transmittance_from(const Light& lamp, const Vec3f& position, MediaRay& ray);

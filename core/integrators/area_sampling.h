@@ -10,11 +10,13 @@
 // lobes are at grazing views. u.x and u.y move the sample monotonously along x and y: stratification lasts.
 //
 // Tried, by the variance of samples (tests/benchmark/area_light_samples.py), the smaller the better: 3 x 3 cells of one
-// value at their centre, which do not end at the horizon, 2 to 50; 3 x 3 nodes 2, 4 x 4 (these) 1, 5 x 5 0.5; nodes
-// even in z / sqrt(1 + z^2), Student's own, 1, but 8 in the worst cases, all at grazing views; fitting the stretched
-// half vector in the place of its slopes 1; fitting where the mirrored view meets the light's plane, without the step
-// to the least slope, 2 to 5 beside the highlight. By relMSE x CPU of three lights over glossy spheres: eight patches
-// cut in eight again, chosen by ggx_cap, 4 times that of 3 x 3 cells, for u jumps between patches.
+// value at their centre, which do not end at the horizon, 2 to 50; 3 x 3 nodes 2, 4 x 4 1, 5 x 5 0.6, 6 columns of 5
+// (these) 0.5 for 1.4 times the time of 4 x 4, 8 x 8 0.25 for 2.5 times; nodes about where the lobe's ridge leaves the
+// light, as they are, 0.8, and a third in the worst cases at grazing views; nodes even in z / sqrt(1 + z^2), Student's
+// own, 1, but 8 in the worst cases, all at grazing views; fitting the stretched half vector in the place of its slopes
+// 1; fitting where the mirrored view meets the light's plane, without the step to the least slope, 2 to 5 beside the
+// highlight. By relMSE x CPU of three lights over glossy spheres: eight patches cut in eight again, chosen by ggx_cap,
+// 4 times that of 3 x 3 cells, for u jumps between patches.
 #pragma once
 
 #include "core/bsdf/surface.h"
@@ -89,7 +91,7 @@ class AreaSampler {
         T diffuse(0);
         if (uses_diffuse_) {
             const Vec2<T> center = detail::fit_diffuse(light, middle).least(light, x_span, middle);
-            diffuse_ = {light, x_span, center, detail::fit_diffuse(light, center)};
+            diffuse_.map = {light, x_span, center, detail::fit_diffuse(light, center)};
             diffuse_.fill(light, [&](const Vec3<T>& wi) { return max(wi.z, T(0)) * light.spread_weight(wi); });
             diffuse = lobes.diffuse * diffuse_.integral * T(1.0f / pi<float>);
         }
@@ -146,10 +148,12 @@ class AreaSampler {
     }
 
    private:
+    using HighlightGrid = detail::AreaGrid<T, 6, 5>;
+
     /// Fits a highlight's grid; returns about what the lobe reflects. turned: whether it has axes of its own.
     template <bool turned>
     T fit_highlight(const HighlightOf<T>& highlight, const Vec3<T>& wo_local, const detail::AreaSpan<T>& x_span,
-                    detail::AreaGrid<T, 4>& grid) const {
+                    HighlightGrid& grid) const {
         const auto own = [&](const Vec3<T>& v) {
             if constexpr (turned) return highlight.frame.to_local(v);
             return v;
@@ -166,13 +170,11 @@ class AreaSampler {
         // From the light's place nearest to where the mirrored view meets its plane.
         const Vec3<T> mirrored(-wo.x, -wo.y, wo.z);
         const T towards = max(-dot(mirrored, light.normal), T(1e-4f));
-        const Vec3<T> offset = mirrored * (-dot(light.center, light.normal) / towards) - light.center;
-        const T per_m2 = inverse(light.parallelogram_m2);
-        const T x = x_span.nearest(dot(offset, cross(light.half_v, light.normal)) * per_m2);
-        const T y = detail::y_above(light_, x).nearest(dot(offset, cross(light.normal, light.half_u)) * per_m2);
-        const Vec2<T> center =
-            detail::fit_glossy(light, wo, per_alpha, Vec2<T>(x, y)).least(light_, x_span, Vec2<T>(x, y));
-        grid = {light_, x_span, center, detail::fit_glossy(light, wo, per_alpha, center)};
+        Vec3<T> offset = mirrored * (-dot(light.center, light.normal) / towards) - light.center;
+        if constexpr (turned) offset = highlight.frame.to_world(offset);
+        const Vec2<T> from = detail::nearest_place(light_, x_span, offset);
+        const Vec2<T> center = detail::fit_glossy(light, wo, per_alpha, from).least(light_, x_span, from);
+        grid.map = {light_, x_span, center, detail::fit_glossy(light, wo, per_alpha, center)};
 
         const T alpha2 = alpha_x * alpha_y, room = T(1) - alpha2;
         const T ratio = turned ? alpha_y * per_alpha.x : T(1), inverse_ratio = turned ? alpha_x * per_alpha.y : T(1);
@@ -197,12 +199,12 @@ class AreaSampler {
     }
 
     struct Part {
-        detail::AreaGrid<T, 4> grid;
+        HighlightGrid grid;
         T before, weight;  ///< of choosing it, and those before it
     };
 
     AreaView<T> light_;
-    detail::AreaGrid<T, 3> diffuse_;
+    detail::AreaGrid<T, 3, 3> diffuse_;
     std::array<Part, HighlightsOf<T>::most> parts_;
     std::size_t count_ = 0;
     T before_diffuse_ = T(0), diffuse_weight_, all_;

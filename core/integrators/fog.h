@@ -89,7 +89,9 @@ class Fog {
     void add_candidates(const Light& lamp, const Path& path);
     void sample_candidates(std::span<const Candidate> candidates, std::uint32_t bounce, const Path& path, float weight,
                            std::uint32_t place, std::uint32_t count);
-    /// batch_size places at once, of a cap-shaped lamp in an even medium of one lobe: mix_. first: of so many places.
+    /// Whether samples of mix_'s phase functions must share anywhere on the ray.
+    bool is_sharp_along_ray(const Candidate& candidate) const;
+    /// batch_size places at once in an even medium of one lobe: mix_. first: of so many places.
     void sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f& u_light, std::uint32_t first,
                        std::uint32_t count, std::uint32_t bounce, const Path& path, std::uint32_t dimension);
     /// At a place of the ray that mix_ is of.

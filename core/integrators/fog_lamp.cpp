@@ -114,37 +114,17 @@ Vec3b scattered_of(const SunLight& sun, const FogPart& part, bool precisely) {
 }
 
 Vec3b scattered_of(const AreaLight& light, const FogPart& part, const Vec3b& position, bool precisely) {
-    // Each cell by its solid angle; without precision four of them are one.
-    AreaCells cells = cells_of(light.shape);
-    if (!precisely) cells = light.shape == AreaShape::ellipse ? AreaCells{1, 8} : AreaCells{2, 2};
-    const float width = 1.0f / static_cast<float>(cells.columns), height = 1.0f / static_cast<float>(cells.rows);
-    Vec3b sum(Batch(0.0f));
-    for (std::size_t i = 0; i < cells.columns * cells.rows; ++i) {
-        const float u = static_cast<float>(i % cells.columns) * width,
-                    v = static_cast<float>(i / cells.columns) * height;
-        SeenCell<Batch> seen =
-            see_cell<Batch>(light, position, {Batch(u), Batch(v)}, {Batch(u + width), Batch(v + height)});
-        if (light.inverse_tan_spread > 0.0f) {
-            const Batch cosine = -dot(seen.wi, broadcast(light.normal));
-            seen.solid_angle *= max(spread_falloff(Batch(light.inverse_tan_spread), cosine),
-                                    Batch(precisely ? 0.0f : 0.02f));  // what is sampled by it is nowhere nothing
-        }
-        const Vec3b direction = broadcast(part.ray.ray().direction);
-        // As a cap of that solid angle a cell is as wide as it is, which matters to a sharp phase function.
-        if (precisely)
-            sum += scattered_of_cap(part, {seen.wi, seen.solid_angle * Batch(0.5f / pi<float>)}, true);
-        else
-            for (const ScatterLobe& lobe : part.mix.lobes)
-                sum += broadcast(lobe.sigma_s) * (eval(lobe.phase, direction, seen.wi) * seen.solid_angle);
-    }
-    return sum * broadcast(light.radiance);
-}
-
-/// The sharpest of the lobes as its pivot of the circle; nearer to 0 where lobes differ.
-float typical_g(const MediumMix& mix) {
-    float sum = 0.0f;
-    for (const ScatterLobe& lobe : mix.lobes) sum += MediumMix::weight(lobe) * lobe.phase.g;
-    return std::clamp(sum / mix.total_weight, -0.98f, 0.98f);
+    const FogAreaView<Batch> view(light, position, broadcast(part.ray.ray().direction), part.mix.typical_g());
+    const auto scattered = [&](const Vec3b& wi) {
+        Vec3b sum(Batch(0.0f));
+        for (const ScatterLobe& lobe : part.mix.lobes)
+            sum += broadcast(lobe.sigma_s) * eval(lobe.phase, view.direction(), wi);
+        if (light.inverse_tan_spread > 0.0f)
+            sum = sum *
+                  (precisely ? spread_falloff(Batch(light.inverse_tan_spread), wi.z) : view.light().spread_weight(wi));
+        return sum;
+    };
+    return (precisely ? view.integrate<6>(scattered) : view.integrate<2>(scattered)) * broadcast(light.radiance);
 }
 
 }  // namespace
@@ -156,7 +136,7 @@ std::optional<Range> lit_part(const Light& lamp, const FogPart& part) {
         const auto lit = within_cone(*spot, part.ray.ray());
         return lit ? within(whole, *lit) : std::nullopt;
     }
-    if (const auto* area = std::get_if<AreaLight>(&lamp)) {
+    if (const auto* area = std::get_if<AreaLight>(&lamp); area && !area->is_two_sided()) {
         const auto lit = before_plane(*area, part.ray.ray());
         return lit ? within(whole, *lit) : std::nullopt;
     }
@@ -172,7 +152,7 @@ DistanceMap distance_map(const Light& lamp, const FogPart& part, float near_m, f
     const Ray& ray = part.ray.ray();
     const float along_m = dot(center - ray.origin, ray.direction);
     const float off_m = length(ray.origin + along_m * ray.direction - center);
-    return {near_m, far_m, sigma_t, along_m, std::max(off_m, size_m), typical_g(part.mix)};
+    return {near_m, far_m, sigma_t, along_m, std::max(off_m, size_m), part.mix.typical_g()};
 }
 
 Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& distance_m, bool precisely) {
@@ -194,28 +174,40 @@ Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch&
     return transmittance_to(part, position, d / reach_m, reach_m);
 }
 
-LampLanes::LampLanes(const Light& lamp, const Vec3b& position)
-    : sphere(sphere_of(lamp)), spot(std::get_if<SpotLight>(&lamp)), to_center(Batch(0.0f)) {
-    if (sphere) {
-        to_center = broadcast(sphere->center) - position;
-        full_radiance = sphere->radiance;
-        cap = cap_from(*sphere, position);
-    } else {
-        const auto& sun = std::get<SunLight>(lamp);
-        full_radiance = sun.radiance;
-        cap = {broadcast(sun.cap.axis), Batch(sun.cap.versine)};
+bool is_sharp_beside(const AreaLight& light, const MediumMix& mix, float distance_m) {
+    const float reach_m = length(light.half_u) + length(light.half_v);
+    for (const ScatterLobe& lobe : mix.lobes) {
+        const float g = std::abs(lobe.phase.g), ten_widths = 10.0f * (1.0f - g);
+        if (g * sqr(reach_m) > sqr(ten_widths * distance_m)) return true;
     }
+    return false;
 }
 
-Batch LampLanes::distance_m(const Vec3b& wi) const {
-    if (!sphere) return std::numeric_limits<Batch>::infinity();
-    return sphere->is_facing_disk ? distance_to_facing_disk(to_center, wi)
-                                  : distance_to_sphere(to_center, Batch(sphere->radius_m), wi);
-}
-
-Vec3b LampLanes::radiance(const Vec3b& wi) const {
-    const Vec3b full = broadcast(full_radiance);
-    return spot ? full * spot_falloff(*spot, -dot(wi, broadcast(spot->direction))) : full;
+LampSamples sample_lamp(const Light& lamp, const MediumMix& mix, const Vec3b& position, const Vec3b& direction,
+                        const Vec2b& u) {
+    if (const auto* area = std::get_if<AreaLight>(&lamp)) {
+        const auto s = FogAreaSampler<Batch>(*area, mix, position, direction).sample(u);
+        return {s.wi, s.pdf_omega, s.distance_m, broadcast(area->radiance) * s.spread};
+    }
+    const PivotPhase<Batch> proxy{Batch(proxy_of(mix.lobes[0].phase).g_p)};
+    const auto sample_cap = [&](const Cap<Batch>& cap) {
+        const Vec3b wi = pivot::sample(proxy, direction, cap, u);
+        return std::pair(wi, pdf_omega_uniform_inside(pivot(proxy, direction), cap, wi));
+    };
+    if (const auto* sun = std::get_if<SunLight>(&lamp)) {
+        const auto [wi, pdf] = sample_cap({broadcast(sun->cap.axis), Batch(sun->cap.versine)});
+        return {wi, pdf, std::numeric_limits<Batch>::infinity(), broadcast(sun->radiance)};
+    }
+    const SphereLight& sphere = *sphere_of(lamp);
+    const Vec3b to_center = broadcast(sphere.center) - position;
+    const auto [wi, pdf] = sample_cap(cap_from(sphere, position));
+    Vec3b radiance = broadcast(sphere.radiance);
+    if (const auto* spot = std::get_if<SpotLight>(&lamp))
+        radiance = radiance * spot_falloff(*spot, -dot(wi, broadcast(spot->direction)));
+    return {wi, pdf,
+            sphere.is_facing_disk ? distance_to_facing_disk(to_center, wi)
+                                  : distance_to_sphere(to_center, Batch(sphere.radius_m), wi),
+            radiance};
 }
 
 FogLampSampler::FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,
@@ -228,7 +220,8 @@ FogLampSampler::FogLampSampler(const Light& lamp, const MediumMix& mix, const Ve
       cap_(cap_from(lamp, position)) {
     if (strategy != LightSampling::joint && strategy != LightSampling::sptd) return;
     if (const auto* area = std::get_if<AreaLight>(&lamp)) {
-        weigh_cells(*area, mix);
+        area_.emplace(*area, mix, position, direction);
+        shares_ = is_sharp_beside(*area, mix, length(area->center - position));
     } else if (mix.lobes.size() <= max_lobes) {
         weigh_lobes(mix);
         shares_ = false;
@@ -243,33 +236,6 @@ void FogLampSampler::weigh_lobes(const MediumMix& mix) {
         probability_[count_++] =
             is_alone ? 1.0f : MediumMix::weight(lobe) * integrate(lobe.phase, proxy, direction_, *cap_);
     }
-    normalize_probabilities();
-}
-
-void FogLampSampler::weigh_cells(const AreaLight& light, const MediumMix& mix) {
-    // A cell's middle may miss the peak of a phase function that falls into it.
-    constexpr float even_share = 0.1f;
-    const AreaCells cells = cells_of(light.shape);
-    const auto width = 1.0f / static_cast<float>(cells.columns), height = 1.0f / static_cast<float>(cells.rows);
-    const Vec3b position = broadcast(position_), direction = broadcast(direction_);
-    float total = 0.0f;
-    for (count_ = 0; count_ < area_cell_count; count_ += batch_size) {
-        const auto column = [&](std::size_t i) { return static_cast<float>((count_ + i) % cells.columns); };
-        const auto row = [&](std::size_t i) { return static_cast<float>((count_ + i) / cells.columns); };
-        const Batch u = gather(column) * Batch(width), v = gather(row) * Batch(height);
-        const SeenCell<Batch> seen = see_cell<Batch>(light, position, {u, v}, {u + Batch(width), v + Batch(height)});
-        Batch scattered(0.0f);
-        for (const ScatterLobe& lobe : mix.lobes)
-            scattered += Batch(MediumMix::weight(lobe)) * eval(lobe.phase, direction, seen.wi);
-        (scattered * seen.solid_angle).store_unaligned(&probability_[count_]);
-    }
-    for (std::size_t i = 0; i < count_; ++i) total += probability_[i];
-    const float even = even_share * total / static_cast<float>(area_cell_count);
-    for (std::size_t i = 0; i < count_; ++i) probability_[i] += even;
-    normalize_probabilities();
-}
-
-void FogLampSampler::normalize_probabilities() {
     float total = 0.0f;
     for (std::size_t i = 0; i < count_; ++i) total += probability_[i];
     for (std::size_t i = 0; i < count_; ++i)
@@ -278,49 +244,34 @@ void FogLampSampler::normalize_probabilities() {
 
 std::optional<LightPoint> FogLampSampler::sample(const Vec2f& u) const {
     if (!is_sampled_) return std::nullopt;
+    if (area_) {
+        const FogAreaSample<float> s = area_->sample(u);
+        if (!(s.pdf_omega > 0.0f)) return std::nullopt;
+        return LightPoint{s.wi, s.distance_m, std::get<AreaLight>(lamp_).radiance * s.spread, s.pdf_omega};
+    }
     if (count_ == 0) return sample_light(lamp_, position_, u);
-    // The first number chooses the lobe or the cell, and what is left of it the place within.
+    // The first number chooses the lobe, and what is left of it the place within.
     float left = u.x;
     std::size_t chosen = 0;
     while (chosen + 1 < count_ && left >= probability_[chosen]) left -= probability_[chosen++];
     left = std::min(left / std::max(probability_[chosen], tiny<float>), 1.0f - 0x1p-24f);
-    if (cap_) {
-        const Vec3f wi = pivot::sample(proxies_[chosen], direction_, *cap_, {left, u.y});
-        LightPoint point = light_point_in_cap(lamp_, *cap_, position_, wi);
-        point.pdf_omega = pdf_omega(point);
-        return point;
-    }
-    const auto& light = std::get<AreaLight>(lamp_);
-    const AreaCells cells = cells_of(light.shape);
-    const Vec2f uv((static_cast<float>(chosen % cells.columns) + left) / static_cast<float>(cells.columns),
-                   (static_cast<float>(chosen / cells.columns) + u.y) / static_cast<float>(cells.rows));
-    const Vec2f place = area_place(light.shape, uv);
-    const Vec3f d = light.center + place.x * light.half_u + place.y * light.half_v - position_;
-    const float distance_m = length(d);
-    if (!(distance_m > 0.0f)) return std::nullopt;
-    auto point = light_point(light, d / distance_m, distance_m);
-    if (point) point->pdf_omega *= probability_[chosen] * static_cast<float>(area_cell_count);
+    const Vec3f wi = pivot::sample(proxies_[chosen], direction_, *cap_, {left, u.y});
+    LightPoint point = light_point_in_cap(lamp_, *cap_, position_, wi);
+    point.pdf_omega = pdf_omega(point);
     return point;
 }
 
 float FogLampSampler::pdf_omega(const LightPoint& place) const {
     if (!is_sampled_) return 0.0f;
-    if (count_ == 0) return place.pdf_omega;
-    if (cap_) {
-        float sum = 0.0f;
-        for (std::size_t i = 0; i < count_; ++i)
-            sum += probability_[i] * pdf_omega_uniform_inside(pivot(proxies_[i], direction_), *cap_, place.wi);
-        return sum;
+    if (area_) {
+        const auto& light = std::get<AreaLight>(lamp_);
+        return area_->pdf_omega(area_coordinates(light, position_ + place.distance_m * place.wi));
     }
-    const auto& light = std::get<AreaLight>(lamp_);
-    const AreaCells cells = cells_of(light.shape);
-    const Vec2f uv = area_uv(light.shape, area_coordinates(light, position_ + place.distance_m * place.wi));
-    const auto part = [](float x, std::size_t count) {
-        return std::min(static_cast<std::size_t>(std::max(x, 0.0f) * static_cast<float>(count)), count - 1);
-    };
-    const std::size_t cell = part(uv.y, cells.rows) * cells.columns + part(uv.x, cells.columns);
-    const auto even = light_point(light, place.wi, place.distance_m);
-    return even ? even->pdf_omega * probability_[cell] * static_cast<float>(area_cell_count) : 0.0f;
+    if (count_ == 0) return place.pdf_omega;
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < count_; ++i)
+        sum += probability_[i] * pdf_omega_uniform_inside(pivot(proxies_[i], direction_), *cap_, place.wi);
+    return sum;
 }
 
 }  // namespace pivot

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/integrators/area_cells.h"
 #include "core/integrators/distance_map.h"
+#include "core/integrators/fog_area.h"
 #include "core/integrators/media_ray.h"
 #include "core/integrators/settings.h"
 #include "core/lights/light.h"
@@ -33,23 +33,23 @@ Vec3b scattered_light(const Light& lamp, const FogPart& part, const Batch& dista
 /// About what the media leave of the lamp's light up to places of the ray, as if they filled the boxes around them.
 Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch& distance_m);
 
-/// A cap-shaped lamp from a batch of places.
-struct LampLanes {
-    LampLanes(const Light& lamp, const Vec3b& position);
+/// Whether some phase function is so much narrower than an area lamp that joint samples may miss it from this near.
+bool is_sharp_beside(const AreaLight& light, const MediumMix& mix, float distance_m);
 
-    Batch distance_m(const Vec3b& wi) const;
-    Vec3b radiance(const Vec3b& wi) const;
-
-    const SphereLight* sphere;  ///< null: a sun
-    const SpotLight* spot;      ///< null: not a spot
-    Vec3b to_center;            ///< of the sphere
-    Rgb full_radiance;
-    Cap<Batch> cap;
+/// What each of a batch of places samples of a lamp.
+struct LampSamples {
+    Vec3b wi;
+    Batch pdf_omega;
+    Batch distance_m;
+    Vec3b radiance;  ///< if nothing is in the way
 };
+/// Jointly with the first lobe's phase function; an area lamp with that of all.
+LampSamples sample_lamp(const Light& lamp, const MediumMix& mix, const Vec3b& position, const Vec3b& direction,
+                        const Vec2b& u);
 
 /// Samples of a lamp from a place in fog. By strategies joint and sptd a cap-shaped lamp is drawn jointly with the
-/// pivot phase functions that stand for the lobes, so that samples of the phase function need not share, and an area
-/// lamp cell by cell, by what is scattered of each; else evenly.
+/// pivot phase functions that stand for the lobes, and an area lamp by what is scattered of its parts, so that samples
+/// of the phase function need not share, but where it is very sharp; else evenly.
 class FogLampSampler {
    public:
     FogLampSampler(const Light& lamp, const MediumMix& mix, const Vec3f& position, const Vec3f& direction,
@@ -65,16 +65,15 @@ class FogLampSampler {
     static constexpr std::size_t max_lobes = 8;
 
     void weigh_lobes(const MediumMix& mix);
-    void weigh_cells(const AreaLight& light, const MediumMix& mix);
-    void normalize_probabilities();
 
     const Light& lamp_;
     Vec3f position_, direction_;
     bool is_sampled_, shares_;
     std::optional<Cap<float>> cap_;
     std::array<PivotPhase<float>, max_lobes> proxies_;
-    std::array<float, area_cell_count> probability_;  ///< of each joint lobe, or of each cell
+    std::array<float, max_lobes> probability_;  ///< of each
     std::size_t count_ = 0;
+    std::optional<FogAreaSampler<float>> area_;
 };
 
 }  // namespace pivot

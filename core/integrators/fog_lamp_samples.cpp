@@ -67,10 +67,9 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     const LightSampling strategy = work_.settings.light_sampling;
     if (candidates.size() == 1 && weight == 1.0f && ray_.is_homogeneous() &&
         (strategy == LightSampling::joint || strategy == LightSampling::sptd) &&
-        !std::holds_alternative<AreaLight>(*candidates[0].lamp) &&
         !has_blockers_of_its_own(links_of(place_of(*candidates[0].lamp)))) {
         ray_.set_typical_mix(candidates[0].interval, mix_);
-        if (mix_.lobes.size() == 1) {
+        if (mix_.lobes.size() == 1 && !is_sharp_along_ray(candidates[0])) {
             const std::uint32_t batches = (count + batch_size - 1) / batch_size;
             for (std::uint32_t i = 0; i < batches; ++i)
                 sample_places(candidates[0], u, u_light, i * batch_size, batches * batch_size, bounce, path, dimension);
@@ -107,23 +106,19 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
     const Vec3b direction = broadcast(ray_.ray().direction);
     const Vec3b position = broadcast(ray_.ray().origin) + at.distance_m * direction;
     const MediumInterval& interval = ray_.interval(candidate.interval);
-    const Phase& phase = mix_.lobes[0].phase;
-    const PivotPhase<Batch> proxy{Batch(proxy_of(phase).g_p)};
-    const LampLanes lamp(*candidate.lamp, position);
-    const Vec3b wi =
-        pivot::sample(proxy, direction, lamp.cap, {turned(u_light.x, 0.7548777f), turned(u_light.y, 0.5698403f)});
-    const Batch pdf_omega = pdf_omega_uniform_inside(pivot(proxy, direction), lamp.cap, wi);
-    const Batch pdf = pdf_omega * at.pdf_m * Batch(static_cast<float>(count)), zero(0.0f);
+    const LampSamples lamp = sample_lamp(*candidate.lamp, mix_, position, direction,
+                                         {turned(u_light.x, 0.7548777f), turned(u_light.y, 0.5698403f)});
+    const Batch pdf = lamp.pdf_omega * at.pdf_m * Batch(static_cast<float>(count)), zero(0.0f);
     const BatchMask is_usable = pdf > zero && pdf <= std::numeric_limits<Batch>::max() &&
                                 at.distance_m < std::numeric_limits<Batch>::infinity();
     const RayOf<Batch> rays{.origin = position,
-                            .direction = wi,
+                            .direction = lamp.wi,
                             .near_m = zero,
-                            .far_m = select(is_usable, lamp.distance_m(wi) * Batch(shadow_reach), zero),
+                            .far_m = select(is_usable, lamp.distance_m * Batch(shadow_reach), zero),
                             .time = Batch(ray_.ray().time)};
     const bool casts = casts_shadows(*candidate.lamp);
     const Batch visible = casts ? work_.scene.visibility(rays) : Batch(1.0f);
-    const Batch seen = select(is_usable, visible * eval(phase, direction, wi) / pdf, zero);
+    const Batch seen = select(is_usable, visible * eval(mix_.lobes[0].phase, direction, lamp.wi) / pdf, zero);
     if (!any(seen > zero)) return;
     Vec3b left = transmittance_over(mix_.sigma_t, at.distance_m - Batch(interval.near_m));
     if (casts)
@@ -135,7 +130,7 @@ void Fog::sample_places(const Candidate& candidate, const Vec2f& u, const Vec2f&
         const ShadowPath shadow_path{work_.settings.max_passages, bounce, WordBatch(camera_ray)};
         left = left * light_through(work_.scene, open, shadow_path, work_.memory);
     }
-    const Vec3b light = select(seen > zero, left * lamp.radiance(wi) * seen, Vec3b(zero));
+    const Vec3b light = select(seen > zero, left * lamp.radiance * seen, Vec3b(zero));
     const auto sum = [](const Batch& batch) {
         const Lanes lanes = store(batch);
         return std::accumulate(lanes.begin(), lanes.end(), 0.0f);
@@ -175,6 +170,15 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
     const Vec3f wi = sample(mix_.choose(u.y).phase, direction, {wrap(u_phase.x + u.x), u_phase.y});
     if (const auto point = intersect_light(*candidate.lamp, position, wi))
         add(*point, lamp.pdf_omega(*point) + phase_pdf(wi));
+}
+
+bool Fog::is_sharp_along_ray(const Candidate& candidate) const {
+    const auto* area = std::get_if<AreaLight>(candidate.lamp);
+    if (!area) return false;
+    const Ray& ray = ray_.ray();
+    const MediumInterval& interval = ray_.interval(candidate.interval);
+    const float nearest_m = std::clamp(dot(area->center - ray.origin, ray.direction), interval.near_m, interval.far_m);
+    return is_sharp_beside(*area, mix_, length(ray.origin + nearest_m * ray.direction - area->center));
 }
 
 std::size_t Fog::place_of(const Light& lamp) const {

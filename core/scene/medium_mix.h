@@ -15,6 +15,12 @@ struct MediumMix {
     /// How often a lobe is chosen, relative to each other.
     static float weight(const ScatterLobe& lobe) { return mean_component(lobe.sigma_s); }
     bool scatters() const { return total_weight > 0.0f; }
+    /// Of the phase functions; nearer to 0 where lobes differ.
+    float typical_g() const {
+        float sum = 0.0f;
+        for (const ScatterLobe& lobe : lobes) sum += weight(lobe) * lobe.phase.g;
+        return std::clamp(sum / total_weight, -0.98f, 0.98f);
+    }
     /// The lobe that a number in [0, 1) chooses.
     const ScatterLobe& choose(float u) const {
         std::size_t i = 0;
