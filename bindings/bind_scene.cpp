@@ -359,7 +359,7 @@ void register_scene(py::module_& module) {
             "object_to_world (S, 4, 4), at even times from when the shutter opens to when it closes: 2 to 129 steps.")
         .def("set_mesh_motion", &set_mesh_motion, py::arg("id"), py::arg("positions"),
              py::arg("corner_normals") = py::none(), py::arg("vertex_normals") = py::none(),
-             "Of each step, likewise, what add_mesh was given, which is the middle of the motion.")
+             "Of each step, likewise, what add_mesh or add_curves was given, which is the middle of the motion.")
         .def(
             "set_instance_visibility",
             [](Scene& scene, std::uint32_t id, const RayNames& hidden_from) {

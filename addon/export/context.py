@@ -20,8 +20,8 @@ class Placed:
     instances: list[tuple[list[int], int]] = field(default_factory=list)  # of some, the first of successive ids
     filled: set[int] = field(default_factory=set)  # those with a volume
     shining: set[int] = field(default_factory=set)
-    with_curves: set[int] = field(default_factory=set)  # addresses of original objects
     meshes: dict[int, int] = field(default_factory=dict)  # by the core's id the first instance that has it
+    curves: dict[int, tuple[int, str]] = field(default_factory=dict)  # likewise, and the name of their source
 
 
 @dataclass(frozen=True)

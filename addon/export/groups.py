@@ -13,7 +13,8 @@ from .attributes import UV_OF_PASS, mesh_attributes
 from .baked import Interior
 from .census import report_left_out
 from .context import Context
-from .curves import CurveSource, curve_settings, curve_source
+from .curve_motion import sources_of
+from .curves import CurveSource, curve_settings
 from .grids import NO_GRIDS, Grids
 from .instances import Instances
 from .light_groups import NO_GROUP
@@ -23,7 +24,6 @@ from .mattes import Mattes, asset_name
 from .mesh import edits_applied, mesh_arrays
 from .mesh_cache import MeshCache
 from .smoke import has_smoke, smoke_domain, smoke_grids
-from .strands import strand_sources
 from .visibility import Visible
 from .volume_object import box_arrays, density_scale, volume_grids
 
@@ -133,12 +133,12 @@ class GroupMaker:
 
     def strand_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[Group]:
         is_render = self._context.depsgraph.mode == "RENDER"
-        return self._curve_groups(blender_object, strand_sources(blender_object, is_render), told, index)
+        return self._curve_groups(blender_object, sources_of(blender_object, is_render), told, index)
 
     def curve_object_groups(self, blender_object: bpy.types.Object, told: Instances, index: int) -> list[Group]:
         for described in (blender_object, blender_object.data):
             report_left_out(described, f"object '{blender_object.name}'", self._context.reporter)
-        return self._curve_groups(blender_object, [curve_source(blender_object.data)], told, index)
+        return self.strand_groups(blender_object, told, index)
 
     def _curve_groups(
         self, blender_object: bpy.types.Object, sources: list[CurveSource], told: Instances, index: int
@@ -155,7 +155,7 @@ class GroupMaker:
                 curves, material = self._core_curves(blender_object, source, slots.of_mesh()), (slots.ids[slot],)
                 mattes, attributes = self._context.mattes, slots.attributes
                 groups.append(_group_of(blender_object, curves, material, False, mattes, attributes, is_filled=False))
-        self._context.placed.with_curves.add(blender_object.original.as_pointer())
+                self._context.placed.curves.setdefault(curves, (index, source.name))
         return groups
 
     def _smoke_groups(self, interior: Interior, domain: Any, slot_materials: list[Any]) -> list[Group]:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from .camera import CameraMotion, active_camera, camera_place
 from .context import Context
+from .curve_motion import CurveMotion
 from .instances import Instances
 from .mesh import MeshArrays, edits_applied, mesh_arrays, positions
 
@@ -116,7 +117,7 @@ def export_motion(
     camera = active_camera(context, engine)
     steps = _wish_of(shutter, camera, None).steps
     camera_times = times_of(steps) if steps else [_MIDDLE]
-    places, angles = {_MIDDLE: camera_place(context, engine, camera)}, {_angle_of(camera, context)}
+    places, middle_width = {_MIDDLE: camera_place(context, engine, camera)}, _width_of(camera, context)
     objects = None if only_camera else _ObjectMotion(context, shutter, check_cancel)
     times = set(camera_times) | (objects.times if objects else set())
     try:
@@ -124,24 +125,23 @@ def export_motion(
             engine.frame_set(*shutter.frame_at(time))
             if time in camera_times:
                 places[time] = camera_place(context, engine, camera)
-                angles.add(_angle_of(camera, context))
+                # A wider view is one of what is as much narrower, across the camera's axis.
+                places[time][:3, :2] *= _width_of(camera, context) / middle_width
             if objects:
                 objects.look(time)
     finally:
         engine.frame_set(*shutter.frame_at(_MIDDLE))
     if objects:
         objects.finish()
-    if len(angles) > 1:
-        context.reporter.warn(f"camera '{camera.name}': motion blur of its lens is not supported, its view is as wide")
     way = np.stack([places[time] for time in camera_times])
     moves = (way != way[0]).any() and np.isfinite(way).all()
     return CameraMotion(way if moves else None, shutter.openness, shutter.blurs)
 
 
-def _angle_of(camera: bpy.types.Object, context: Context) -> float | None:
-    """How wide a view a perspective camera has."""
+def _width_of(camera: bpy.types.Object, context: Context) -> float:
+    """How wide a view a perspective camera has, over its distance. In Cycles no other blurs how that changes."""
     data = camera.evaluated_get(context.depsgraph).data
-    return data.angle if isinstance(data, bpy.types.Camera) and data.type == "PERSP" else None
+    return math.tan(data.angle / 2) if isinstance(data, bpy.types.Camera) and data.type == "PERSP" else 1.0
 
 
 def _key(instance: bpy.types.DepsgraphObjectInstance) -> Key:
@@ -178,6 +178,7 @@ class _ObjectMotion:
         self._gone: set[int] = set()  # particles that are not there at all times
         self._meshes: dict[int, dict[float, MeshArrays | None]] = {}  # by the instance; None: as in the middle
         self._rest: dict[int, NDArray[np.float32]] = {}  # positions in the middle, likewise
+        deforming: list[int] = []
         for index, instance in enumerate(instances):
             blender_object = instance.object
             instancer = instance.parent if instance.is_instance else None
@@ -187,9 +188,12 @@ class _ObjectMotion:
             self._indices[_key(instance)] = index
             is_particle = instance.is_instance and instance.particle_system is not None
             self._moving[index] = _Moving(wish.steps, is_particle)
+            if wish.deforms:
+                deforming.append(index)
             if index in with_mesh and wish.deforms:
                 with edits_applied(blender_object) as mesh:
                     self._rest[index] = positions(mesh)
+        self._curves = CurveMotion(context, deforming)
 
     @property
     def times(self) -> set[float]:
@@ -210,6 +214,7 @@ class _ObjectMotion:
             missing.discard(index)
             if index in self._rest:
                 self._look_at_mesh(index, instance.object, time)
+            self._curves.look(index, instance.object, time)
         self._gone |= {index for index in missing if time in times_of(self._moving[index].steps)}
 
     def _look_at_mesh(self, index: int, blender_object: bpy.types.Object, time: float) -> None:
@@ -225,6 +230,7 @@ class _ObjectMotion:
         """Tell the core's scene; the depsgraph is in the middle of the time again."""
         scene, placed = self._context.scene, self._context.placed
         self._finish_meshes()
+        self._curves.finish({index: times_of(moving.steps) for index, moving in self._moving.items()})
         moved: set[int] = set()
         for indices, first in placed.instances:
             for offset, index in enumerate(indices):
@@ -263,11 +269,6 @@ class _ObjectMotion:
             with edits_applied(instance.object) as mesh:
                 rest = mesh_arrays(mesh)
             looks = self._meshes[index]
-            if self._blurs and instance.object.original.as_pointer() in self._context.placed.with_curves:
-                self._context.reporter.warn(
-                    f"object '{instance.object.name}': motion blur of how its strands deform is not supported, they "
-                    "move as they are in the middle"
-                )
             steps = [looks.get(time, rest) for time in times_of(self._moving[index].steps)]
             if any(step is None or _shape(step) != _shape(rest) for step in steps):
                 self._context.reporter.warn(

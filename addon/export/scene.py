@@ -92,6 +92,8 @@ class _Exporter:
         self._groups: dict[tuple[Any, ...], list[Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[Group, list[int]] = defaultdict(list)
+        # By the same and the instancer: where its instances are listed, so that each is only looked up.
+        self._lists: dict[tuple[Any, ...], list[tuple[list[int], list[int] | None]]] = {}
 
     def export_objects(self, is_shown: Callable[[bpy.types.Object], bool] | None) -> None:
         instances = self._context.depsgraph.object_instances
@@ -156,31 +158,42 @@ class _Exporter:
         self, make: _MakeGroups, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
     ) -> None:
         """Add an instance of what an object looks like. make: what that is, called once."""
-        groups = self._groups_of(make, blender_object, instance, told, index)
-        if not groups:
-            return
-        of_object = self._of_object(blender_object, instance.parent if instance.is_instance else None)
-        for of_any in groups:
-            group = replace(of_any, **of_object)
-            self._instances[group].append(index)
-            if "particle:" in group.reads:
-                self._particles[group].append(particle_index(instance))
+        instancer = instance.parent if instance.is_instance else None
+        of_any = make.__name__, blender_object.original.as_pointer(), blender_object.data.as_pointer()
+        key = *of_any, instancer.original.as_pointer() if instancer else 0
+        lists = self._lists.get(key)
+        if lists is None:
+            lists = self._lists[key] = [
+                (self._instances[group], self._particles[group] if "particle:" in group.reads else None)
+                for group in self._groups_of(make, of_any, blender_object, instancer, told, index)
+            ]
+        for indices, particles in lists:
+            indices.append(index)
+            if particles is not None:
+                particles.append(particle_index(instance))
 
     def _groups_of(
-        self, make: _MakeGroups, blender_object: bpy.types.Object, instance: Any, told: Instances, index: int
+        self,
+        make: _MakeGroups,
+        key: tuple[Any, ...],
+        blender_object: bpy.types.Object,
+        instancer: bpy.types.Object | None,
+        told: Instances,
+        index: int,
     ) -> list[Group]:
-        """What an object shares with its like: none where there is nothing to see, one for each part of it."""
-        key = (make.__name__, blender_object.original.as_pointer(), blender_object.data.as_pointer())
+        """What an object is there: none where there is nothing to see, one for each part. key: of it anywhere."""
         if key not in self._groups:
             self._check_cancel()
             self._groups[key] = make(blender_object, told, index)
         groups = self._groups[key]
+        if not groups:
+            return []
+        there = self._of_object(blender_object, instancer)
         reads = frozenset().union(*(group.reads for group in groups))
-        if all(is_of_mesh(name) for name in reads):
-            return groups
-        instancer = instance.parent if instance.is_instance else None
-        attributes = object_attributes(reads, blender_object, instancer, self._context.depsgraph)
-        return [replace(group, attributes=tuple(attributes.items())) for group in groups]
+        if not all(is_of_mesh(name) for name in reads):
+            attributes = object_attributes(reads, blender_object, instancer, self._context.depsgraph)
+            there = there | {"attributes": tuple(attributes.items())}
+        return [replace(group, **there) for group in groups]
 
     def _add_instances(self, group: Group, indices: list[int], told: Instances) -> None:
         object_to_world = told.object_to_world[indices]

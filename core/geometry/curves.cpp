@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/math/moving_transform.h"
+
 namespace pivot {
 namespace {
 
@@ -61,15 +63,78 @@ Mesh make_curves(const std::string& name, std::span<const Vec3f> positions, std:
     return mesh;
 }
 
-CurvePoint curve_point(const Curves& curves, std::uint32_t segment, float u) {
-    const CurvePoint* p = &curves.keys[curves.segments[segment]];
+Mesh moving_curves(const Mesh& mesh, std::span<const MeshStep> steps) {
+    Curves moving = *mesh.curves;
+    std::size_t points = 0;
+    for (const Triangle& ends : mesh.triangles)
+        points = std::max({points, std::size_t{ends.x} + 1, std::size_t{ends.y} + 1});
+    const auto is_usable = [&](const MeshStep& step) {
+        return step.positions.size() > points && std::ranges::all_of(step.positions, [](const Vec3f& p) {
+                   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+               });
+    };
+    if (steps.size() < 2 || steps.size() > MovingTransform::max_steps || !std::ranges::all_of(steps, is_usable))
+        throw std::invalid_argument("curves '" + mesh.name +
+                                    "': their motion needs 2 to 129 finite steps of as many points as they have");
+    moving.steps.assign(steps.size(), moving.keys);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const auto put = [&](std::size_t key, std::uint32_t point) {
+            CurvePoint& moved = moving.steps[i][key];
+            moved = CurvePoint(steps[i].positions[point], moved.w);
+        };
+        const std::vector<std::uint32_t>& segments = moving.segments;
+        for (std::size_t k = 0; k < segments.size(); ++k) {
+            const std::uint32_t first = segments[k];
+            const Triangle& ends = mesh.triangles[k];
+            if (moving.shape == CurveShape::ball) {
+                put(first, ends.x);
+                continue;
+            }
+            if (k == 0 || segments[k - 1] + 1 != first) put(first, ends.x);
+            put(first + 1, ends.x);
+            put(first + 2, ends.y);
+            if (k + 1 == segments.size() || segments[k + 1] != first + 1) put(first + 3, ends.y);
+        }
+    }
+    Mesh moved = mesh;
+    moved.curves = std::make_shared<const Curves>(std::move(moving));
+    moved.steps.assign(steps.size(), MeshStep{});
+    return moved;
+}
+
+namespace {
+
+/// The four of a segment at a time.
+std::array<CurvePoint, 4> keys_at(const Curves& curves, std::uint32_t segment, float time) {
+    const std::uint32_t first = curves.segments[segment];
+    std::array<CurvePoint, 4> keys;
+    if (curves.steps.empty()) {
+        std::copy_n(curves.keys.begin() + first, 4, keys.begin());
+        return keys;
+    }
+    const BetweenSteps between(time, curves.steps.size());
+    const auto &a = curves.steps[between.first], &b = curves.steps[between.first + 1];
+    for (std::size_t i = 0; i < 4; ++i) keys[i] = between.of(a[first + i], b[first + i]);
+    return keys;
+}
+
+CurvePoint ball_at(const Curves& curves, std::uint32_t ball, float time) {
+    if (curves.steps.empty()) return curves.keys[ball];
+    const BetweenSteps between(time, curves.steps.size());
+    return between.of(curves.steps[between.first][ball], curves.steps[between.first + 1][ball]);
+}
+
+}  // namespace
+
+CurvePoint curve_point(const Curves& curves, std::uint32_t segment, float u, float time) {
+    const std::array<CurvePoint, 4> p = keys_at(curves, segment, time);
     const CurvePoint linear = p[2] - p[0], square = 2.0f * p[0] - 5.0f * p[1] + 4.0f * p[2] - p[3],
                      cube = 3.0f * (p[1] - p[2]) + p[3] - p[0];
     return p[1] + 0.5f * u * (linear + u * (square + u * cube));
 }
 
-CurvePoint curve_derivative(const Curves& curves, std::uint32_t segment, float u) {
-    const CurvePoint* p = &curves.keys[curves.segments[segment]];
+CurvePoint curve_derivative(const Curves& curves, std::uint32_t segment, float u, float time) {
+    const std::array<CurvePoint, 4> p = keys_at(curves, segment, time);
     const CurvePoint linear = p[2] - p[0], square = 2.0f * p[0] - 5.0f * p[1] + 4.0f * p[2] - p[3],
                      cube = 3.0f * (p[1] - p[2]) + p[3] - p[0];
     return 0.5f * (linear + u * (2.0f * square + 3.0f * u * cube));
@@ -100,10 +165,10 @@ HitTriangleOf<float> triangle_on_ball(const CurvePoint& ball, const Vec2f& uv, c
 }  // namespace
 
 HitTriangleOf<float> touching_triangle(const Curves& curves, std::uint32_t segment, const Vec2f& uv,
-                                       const Vec3f& direction) {
-    if (curves.shape == CurveShape::ball) return triangle_on_ball(curves.keys[segment], uv, direction);
-    const CurvePoint axis = curve_point(curves, segment, uv.x);
-    const Vec3f wo = -normalize(direction), along(curve_derivative(curves, segment, uv.x));
+                                       const Vec3f& direction, float time) {
+    if (curves.shape == CurveShape::ball) return triangle_on_ball(ball_at(curves, segment, time), uv, direction);
+    const CurvePoint axis = curve_point(curves, segment, uv.x, time);
+    const Vec3f wo = -normalize(direction), along(curve_derivative(curves, segment, uv.x, time));
     const Vec3f tangent = unit_or(along, any_across(wo));
     const Vec3f across = unit_or(cross(tangent, wo), any_across(tangent)), front = cross(across, tangent);
     const float sine = std::clamp(uv.y, -max_sine, max_sine);

@@ -6,8 +6,9 @@ namespace pivot {
 namespace {
 
 /// Where a ray meets a round tube with this normal, as ribbons' hits tell it.
-Vec2f place_on_tube(const Curves& curves, std::uint32_t segment, float u, const Vec3f& normal, const Vec3f& direction) {
-    const Vec3f along(curve_derivative(curves, segment, u)), across = cross(direction, along);
+Vec2f place_on_tube(const Curves& curves, std::uint32_t segment, float u, const Vec3f& normal, const Vec3f& direction,
+                    float time) {
+    const Vec3f along(curve_derivative(curves, segment, u, time)), across = cross(direction, along);
     const Vec3f around = normal - dot(normal, along) / std::max(length_squared(along), 1e-30f) * along;
     const float scale2 = length_squared(across) * length_squared(around);
     return {u, scale2 > 0.0f ? dot(across, around) / std::sqrt(scale2) : 0.0f};
@@ -28,10 +29,11 @@ void keep_fronts(const RTCFilterFunctionNArguments* arguments) {
             arguments->valid[i] = 0;
             continue;
         }
-        const Vec2f uv = curves->shape == CurveShape::ball
-                             ? Vec2f(ball_frame(direction).to_local(normalize(normal)))
-                             : place_on_tube(*curves, RTCHitN_primID(arguments->hit, n, i),
-                                             RTCHitN_u(arguments->hit, n, i), normal, direction);
+        const Vec2f uv =
+            curves->shape == CurveShape::ball
+                ? Vec2f(ball_frame(direction).to_local(normalize(normal)))
+                : place_on_tube(*curves, RTCHitN_primID(arguments->hit, n, i), RTCHitN_u(arguments->hit, n, i), normal,
+                                direction, RTCRayN_time(arguments->ray, n, i));
         RTCHitN_u(arguments->hit, n, i) = uv.x;
         RTCHitN_v(arguments->hit, n, i) = uv.y;
     }
@@ -46,8 +48,16 @@ Owned<RTCGeometry> EmbreeDevice::make_curves(const Curves& curves) const {
                                           : RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE;
     };
     Owned<RTCGeometry> geometry(rtcNewGeometry(handle.get(), type_of(curves.shape)));
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.keys.data(), 0,
-                               sizeof(CurvePoint), curves.keys.size());
+    const auto set_keys = [&](unsigned step, const std::vector<CurvePoint>& keys) {
+        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT4, keys.data(), 0,
+                                   sizeof(CurvePoint), keys.size());
+    };
+    if (curves.steps.empty()) {
+        set_keys(0, curves.keys);
+    } else {
+        rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(curves.steps.size()));
+        for (unsigned step = 0; step < curves.steps.size(); ++step) set_keys(step, curves.steps[step]);
+    }
     if (curves.shape != CurveShape::ball)
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
                                    sizeof(std::uint32_t), curves.segments.size());

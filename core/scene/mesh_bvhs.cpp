@@ -49,8 +49,9 @@ Owned<RTCGeometry> EmbreeDevice::make_triangles(const Mesh& mesh, const std::vec
 
 MeshBvh::MeshBvh(const EmbreeDevice& device, const Mesh& mesh, bool filters) : scene(device.make_scene()) {
     const auto geometry = mesh.curves ? device.make_curves(*mesh.curves) : device.make_triangles(mesh, mesh.positions);
-    if (!mesh.steps.empty()) rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(mesh.steps.size()));
-    for (unsigned i = 0; i < mesh.steps.size(); ++i)
+    const bool deforms = !mesh.curves && !mesh.steps.empty();
+    if (deforms) rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned>(mesh.steps.size()));
+    for (unsigned i = 0; deforms && i < mesh.steps.size(); ++i)
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, i, RTC_FORMAT_FLOAT3,
                                    mesh.steps[i].positions.data(), 0, sizeof(Vec3f), mesh.vertex_count());
     rtcSetGeometryMask(geometry.get(), ~0u);

@@ -187,7 +187,8 @@ HitTriangleOf<float> Scene::hit_triangle(const RayHit& hit, const Vec3f& directi
     if (!mesh.curves) return triangle_at(instance, mesh, hit.triangle, hit.time);
     const Transform world_from_object = instance.motion ? instance.motion->at(hit.time) : instance.world_from_object;
     const Vec3f direction_object = glm::inverse(world_from_object.linear) * direction;
-    HitTriangleOf<float> triangle = touching_triangle(*mesh.curves, hit.triangle, hit.barycentric, direction_object);
+    HitTriangleOf<float> triangle =
+        touching_triangle(*mesh.curves, hit.triangle, hit.barycentric, direction_object, hit.time);
     triangle.world_from_object = world_from_object;
     triangle.normal_matrix = world_from_object.normal_matrix();
     triangle.time = hit.time;

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/geometry/curves.h"
 #include "core/scene/scene.h"
 
 namespace pivot {
@@ -215,10 +216,14 @@ void Scene::set_instance_motion(std::uint32_t id, std::shared_ptr<const MovingTr
 void Scene::set_mesh_motion(std::uint32_t id, std::vector<MeshStep> steps) {
     const auto edit = begin_edit();
     std::shared_ptr<const Mesh>& mesh = at(meshes_, id, "mesh");
-    Mesh moving = *mesh;
-    moving.steps = std::move(steps);
-    require_steps(moving);
-    mesh = std::make_shared<const Mesh>(std::move(moving));
+    if (mesh->curves) {
+        mesh = std::make_shared<const Mesh>(moving_curves(*mesh, steps));
+    } else {
+        Mesh moving = *mesh;
+        moving.steps = std::move(steps);
+        require_steps(moving);
+        mesh = std::make_shared<const Mesh>(std::move(moving));
+    }
     ray_tracer_.set_mesh(id, mesh);
 }
 

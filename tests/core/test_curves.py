@@ -113,3 +113,36 @@ def test_attributes_go_from_point_to_point() -> None:
 def test_bad_curves_are_named(positions: list[list[float]], radii: list[float], offsets: list[int], said: str) -> None:
     with pytest.raises(ValueError, match=f"curves 'wig': {said}"):
         pivot_core.Scene().add_curves("wig", np.array(positions), np.array(radii), np.array(offsets))
+
+
+@pytest.mark.parametrize("shape", ["RIBBON", "ROUND", "BALL"])
+def test_what_deforms_is_seen_as_what_moves(shape: str) -> None:
+    """Two strands of which one is shorter, shifted by their points, and by their place."""
+    offsets = np.array([0, 3, 5])
+    positions = np.zeros((5, 3), np.float32)
+    positions[:, 0], positions[3:, 1] = (-1, 0, 1, -0.5, 0.5), 0.6
+
+    def seen(deforms: bool) -> np.ndarray:
+        scene = pivot_core.Scene()
+        curves = scene.add_curves("strands", positions, np.full(5, RADIUS_M, np.float32), offsets, shape)
+        grey = scene.add_material("grey", pivot_core.Material(diffuse=(0.5, 0.5, 0.5)))
+        scene.add_instances("strands", curves, place(), [grey])
+        shifts = [np.array((0, y, 0), np.float32) for y in (-0.4, 0.0, 0.2)]
+        if deforms:
+            scene.set_mesh_motion(curves, positions=[positions + shift for shift in shifts])
+        else:
+            scene.set_instance_motion(0, np.concatenate([place(*shift) for shift in shifts]))
+        scene.add_light("sun", pivot_core.SunLight((0, 0.8, 0.6), 0.1, (1, 1, 1)))
+        set_camera(scene, (0, 0, 10), size=(32, 32), half_width=0.15)
+        return render(scene, samples=32, max_bounces=1)[..., :3]
+
+    moved, deformed = seen(False), seen(True)
+    assert moved.mean() > 0.002
+    assert np.abs(deformed - moved).mean() < 0.01 * moved.mean()
+
+
+def test_motion_of_fewer_points_is_refused() -> None:
+    scene = pivot_core.Scene()
+    strand(scene, "RIBBON", pivot_core.Material())
+    with pytest.raises(ValueError, match="curves 'strand': their motion needs 2 to 129"):
+        scene.set_mesh_motion(0, positions=[np.zeros((4, 3), np.float32)] * 2)

@@ -118,12 +118,30 @@ def _instances() -> None:
         _moved(empty, "location", 0, f"{2.0 * k - 2} + (frame - {FRAME}) * {k}")
 
 
+def _zoom() -> None:
+    _ball("ball", (-1, 0, 1.01), _painted("red", 0.8, 0.2, 0.1))
+    _bar("bar", _painted("blue", 0.1, 0.3, 0.8))
+    _moved(bpy.context.scene.camera.data, "lens", -1, f"38 + (frame - {FRAME}) * 30")
+
+
+def _strands() -> None:
+    """Of a ball that grows into an egg."""
+    ball = _deformed()
+    ball.modifiers.new("fur", "PARTICLE_SYSTEM")
+    settings = ball.particle_systems[0].settings
+    settings.type, settings.count, settings.hair_length, settings.render_step = "HAIR", 300, 0.6, 3
+    settings.child_type, settings.rendered_child_count = "INTERPOLATED", 4
+    settings.root_radius, settings.tip_radius, settings.radius_scale = 2.0, 0.5, 0.02
+
+
 PICTURES: dict[str, Callable[[], Any]] = {
     "objects": _objects,
     "curve": _opens_at_the_frame,
     "camera": _camera,
     "deformed": _deformed,
     "instances": _instances,
+    "zoom": _zoom,
+    "strands": _strands,
 }
 ANALYTIC = ("objects", "deformed")
 
@@ -189,12 +207,11 @@ def _handed_over() -> Any:
 
 
 def _left_out() -> Any:
-    """A mesh that gets more vertices, what has a volume, a lens, and a lamp of a mesh in analytic pictures."""
+    """A mesh that gets more vertices, what has a volume, and a lamp of a mesh in analytic pictures."""
     _scene()
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     glow, _ = parts.shaded("glow", "ShaderNodeEmission", Strength=2)
     _moved(parts.quad("panel", material=glow), "location", 0, "frame")
-    _moved(bpy.context.scene.camera.data, "lens", -1, "30 + frame")
     row = _bar("row", None)
     array = row.modifiers.new("array", "ARRAY")
     _moved(array, "count", -1, "frame")
