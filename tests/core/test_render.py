@@ -225,7 +225,7 @@ def by_strategy() -> dict[str, tuple[np.ndarray, np.ndarray]]:
     scene.set_world((0.1, 0.1, 0.12))
     result = {}
     for index, strategy in enumerate(STRATEGIES):
-        seeds = range(100 * index, 100 * index + 24)
+        seeds = range(100 * index, 100 * index + 12)
         runs = [
             render(scene, samples=128, seed=seed, max_bounces=0, light_sampling=strategy)[..., :3].mean(-1)
             for seed in seeds
@@ -303,7 +303,7 @@ def test_adaptive_sampling_puts_samples_where_they_lower_the_error_most() -> Non
     """For one error of a picture that is noisy almost everywhere it takes three quarters of the samples."""
     scene = still_life()
     set_camera(scene, (0, -9, 3.5), (0, 0, 0.8), (128, 72), 0.45)
-    converged = render(scene, samples=4096, max_bounces=0, filter_width_px=3.0)[..., :3]
+    converged = render(scene, samples=2048, max_bounces=0, filter_width_px=3.0)[..., :3]
 
     def relative_error(**settings: object) -> tuple[float, float]:
         session = pivot_core.Session(scene, pivot_core.RenderSettings(max_bounces=0, filter_width_px=3.0, **settings))

@@ -15,7 +15,7 @@ import parts
 OLD = bpy.app.version < (4, 0)
 SIZE = 48
 CYCLES_SAMPLES = 256
-PIVOT_SAMPLES = {"JOINT": 256, "SPTD": 256, "MIS": 256, "LIGHT": 1024, "BSDF": 1024}
+PIVOT_SAMPLES = {"JOINT": 128, "SPTD": 128, "MIS": 128, "LIGHT": 512, "BSDF": 1024}
 IN_EVERY_SAMPLING = ("point", "spot", "soft_point", "soft_spot", "sun", "disk", "lobes", "bounces")
 SOFT: dict[str, Any] = {"shadow_soft_size": 1.0}
 SPHERE: dict[str, Any] = {"shadow_soft_size": 0.4} | ({} if OLD else {"use_soft_falloff": False})
