@@ -35,10 +35,10 @@ def main(folder: Path) -> Any:
 
 
 def _limited(memory: Any, folder: Path) -> float:
-    """What is there in a control group of 100 MB that uses 60, 15 of them for files it can drop."""
-    (folder / "limit").write_text("100000000\n")
-    (folder / "used").write_text("60000000\n")
+    """What is there in a control group of 100 MB that uses 60, 15 of them for files it can drop; folders around it are asked too."""
+    (folder / "pivot.limit").write_text("100000000\n")
+    (folder / "pivot.used").write_text("60000000\n")
     (folder / "memory.stat").write_text("anon 1\ninactive_file 15000000\n")
-    group = (str(folder), "limit", "used", "inactive_file")
+    group = (str(folder), "pivot.limit", "pivot.used", "inactive_file")
     with patch.object(memory, "_CGROUPS", {"": group, "memory": group}):
         return memory.available_bytes()
