@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Mapping
 
 import numpy as np
 
-from .denoise import Denoiser, Pixels
+from .denoise import Denoised, Denoiser, Pixels
 
 # Light by what reflected it, and the colours that it is stored without.
 _DIRECT = {"DiffDir": "Diffuse Color", "GlossDir": "GlossCol", "TransDir": "TransCol"}
@@ -19,7 +19,7 @@ _COLORS = _DIRECT | _INDIRECT
 _OTHER_DIRECT, _OTHER_INDIRECT = ("Emit", "Env", "VolumeDir"), ("VolumeInd",)
 
 Read = Callable[[str], Pixels]
-Shared = Callable[[Mapping[str, Pixels], Pixels, Mapping[str, Pixels]], dict[str, Pixels]]
+Parts = Mapping[str, Pixels]
 
 
 def denoised_passes(
@@ -30,54 +30,50 @@ def denoised_passes(
     mode, read: as of Denoiser.denoised; read takes groups, passes of light groups, too. Raises DenoiserError.
     """
     guides = denoiser.guides(read)
-    combined = denoiser.denoised(mode, read, guides)
-    noisy, clean = read("Combined")[..., :3], combined[..., :3]
-    passes = {"Combined": combined}
+    picture = denoiser.denoised(mode, read, guides)
+    noisy, clean = read("Combined")[..., :3], picture.combined[..., :3]
+    passes = {"Combined": picture.combined, "Indirect": picture.indirect}
 
-    def shared(parts: Mapping[str, Pixels], total: Pixels, colors: Mapping[str, Pixels]) -> dict[str, Pixels]:
-        """What each part has of the total: of those with a colour nothing where that is black."""
-        cleaned = {name: denoiser.light(part, guides) for name, part in parts.items()}
-        for name in cleaned.keys() & colors.keys():
-            cleaned[name] = np.where(colors[name] != 0, cleaned[name], 0)
-        factor = _over(total, _sum(cleaned))
-        return {name: part * factor for name, part in cleaned.items()}
+    def shared(total: Pixels, parts: Parts, colors: Parts, kept: Pixels | float = 0.0) -> dict[str, Pixels]:
+        """What each part has of the total: of those with a colour nothing where that is black. kept: how much of a part
+        is to be as it is, noise and all."""
+        mixed = dict(parts)
+        if not np.all(kept == 1):
+            for name, part in parts.items():
+                mixed[name] = kept * part + (1 - kept) * denoiser.light(part, guides)
+        for name in mixed.keys() & colors.keys():
+            mixed[name] = np.where(colors[name] != 0, mixed[name], 0)
+        factor = _over(total, _sum(mixed))
+        return {name: part * factor for name, part in mixed.items()}
 
-    if "Indirect" in wanted:
-        indirect = read("Indirect")
-        direct = noisy - indirect
-        if mode == "ALL":
-            passes["Indirect"] = shared({"direct": direct, "Indirect": indirect}, clean, {})["Indirect"]
-        else:
-            passes["Indirect"] = clean - direct
     if not wanted.isdisjoint(_COLORS):
-        passes |= _light_passes(mode, read, clean, shared)
+        passes |= _light_passes(read, picture, shared)
     if groups:
         light = {group: read(group) for group in groups}
         light["of no group"] = np.maximum(noisy - _sum(light), 0)
-        of_groups = shared(light, clean, {})
+        of_groups = shared(clean, light, {})
         passes |= {group: of_groups[group] for group in groups}
     return passes
 
 
-def _light_passes(mode: str, read: Read, clean: Pixels, shared: Shared) -> dict[str, Pixels]:
+def _light_passes(read: Read, picture: Denoised, shared: Callable[..., dict[str, Pixels]]) -> dict[str, Pixels]:
     color_of = {name: read(name) for name in {*_COLORS.values()}}
     colors = {name: color_of[color] for name, color in _COLORS.items()}
 
     def light_of(names: Collection[str]) -> dict[str, Pixels]:
         return {name: read(name) * colors[name] if name in colors else read(name) for name in names}
 
+    clean = picture.combined[..., :3]
     direct, indirect = light_of((*_DIRECT, *_OTHER_DIRECT)), light_of((*_INDIRECT, *_OTHER_INDIRECT))
-    if mode == "ALL":
-        light = shared(direct | indirect, clean, colors)
-    else:
-        light = direct | shared(indirect, clean - _sum(direct), colors)
+    light = shared(picture.indirect, indirect, colors)
+    light |= shared(clean - picture.indirect, direct, colors, picture.direct_kept)
     # What the denoiser smears over the edge of what reflects has no colour there that it could go by.
     lost = clean - _sum(light)
     light["Emit"] = light["Emit"] + np.where(np.abs(lost) > 1e-5 * np.abs(clean), lost, 0)
     return {name: _over(part, colors[name]) if name in colors else part for name, part in light.items()}
 
 
-def _sum(parts: Mapping[str, Pixels]) -> Pixels:
+def _sum(parts: Parts) -> Pixels:
     return sum(parts.values(), np.zeros_like(next(iter(parts.values()))))
 
 

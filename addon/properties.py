@@ -39,8 +39,12 @@ OCCLUSIONS = (
 
 DENOISING = (
     ("NONE", "None", "Noise stays"),
-    ("INDIRECT", "Indirect", "Light that bounced; direct light keeps its shadows and highlights as they are"),
-    ("ALL", "All", "All light: where direct light is noisy too"),
+    (
+        "INDIRECT",
+        "Indirect",
+        "Light that bounced, and direct light where it is noisy; shadows and highlights stay sharp",
+    ),
+    ("ALL", "All", "Direct light also where its noise is low"),
 )
 
 INDIRECT = (

@@ -8,8 +8,16 @@ from typing import Any
 from . import denoise
 
 _FINE_SAMPLES = 4
-_GUIDES = ("Combined", "Denoising Albedo", "Denoising Normal")
-_PASSES = {"ALL": (*_GUIDES, "Noisy Image"), "INDIRECT": (*_GUIDES, "Indirect", "Noisy Indirect")}
+_PASSES = (
+    "Combined",
+    "Indirect",
+    "Noisy Image",
+    "Noisy Indirect",
+    "Direct Variance",
+    "Indirect Variance",
+    "Denoising Albedo",
+    "Denoising Normal",
+)
 
 
 class ViewportDenoiser:
@@ -39,7 +47,7 @@ class ViewportDenoiser:
         is_better = samples >= 2 * self._samples_begun or (finished and samples > self._samples_begun)
         if samples == 0 or not is_better or self._is_broken or self._is_busy():
             return
-        passes = {name: session.read(name) for name in _PASSES[mode]}
+        passes = {name: session.read(name) for name in _PASSES}
         self._samples_begun = samples
         is_coarse = samples < _FINE_SAMPLES and not finished
         arguments = mode, passes, is_coarse, self._session_number
@@ -66,7 +74,7 @@ class ViewportDenoiser:
         cleaned = None
         try:
             guides = self._denoiser.guides(passes.__getitem__, is_coarse)
-            cleaned = self._denoiser.denoised(mode, passes.__getitem__, guides)
+            cleaned = self._denoiser.denoised(mode, passes.__getitem__, guides).combined
         except denoise.DenoiserError as error:
             self._is_broken = True
             print(f"Warning: Pivot: {error}", flush=True)

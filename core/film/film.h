@@ -90,8 +90,10 @@ struct OwnSum {
     Rgb radiance{0.0f}, indirect{0.0f}, albedo{0.0f};
     Vec3f normal{0.0f};
     float weight = 0.0f;
+    float told_weight = 0.0f;                                ///< squared, of samples that tell how far others differ
+    float direct_variance = 0.0f, indirect_variance = 0.0f;  ///< of a sample, over its colours, times told_weight
 
-    /// Adds samples, all of them times `scale`.
+    /// Adds samples that are spread evenly together, all of them times `scale`.
     void add(std::span<const Sample> samples, float scale);
     void add(const OwnSum& other, float scale);
     /// What a sum is multiplied by for its mean; 0 without samples.
@@ -178,7 +180,8 @@ class Film {
     void merge(const Film& other, std::span<const float> own_weights, std::span<const float> other_weights);
 
     /// The mean squared error of one of two films that were made alike, relative to the pixels' radiance.
-    float squared_error_beside(const Film& other) const;
+    /// denoised_part: so much less counts what light that bounced differs by.
+    float squared_error_beside(const Film& other, float denoised_part) const;
     /// Adds the other's samples.
     void add(const Film& other);
 

@@ -89,15 +89,17 @@ Allotment allot(std::span<const float> variances, float relative_error, float le
 
 }  // namespace
 
-void Pilot::add(float radiance) {
+void Pilot::add(float radiance, float counted) {
     constexpr float most = 1e12f;  // whose square is a number
-    block_ += std::clamp(radiance, -most, most) / samples_per_block;
+    block_of_light_ += std::clamp(radiance, -most, most) / samples_per_block;
+    block_ += std::clamp(counted, -most, most) / samples_per_block;
     if (++samples_ % samples_per_block != 0) return;
+    light_ += block_of_light_;
     sum_ += block_;
     sum_of_squares_ += sqr(block_);
     most_ = blocks_ == 0 ? block_ : std::max(most_, block_);
     ++blocks_;
-    block_ = 0.0f;
+    block_ = block_of_light_ = 0.0f;
 }
 
 float Pilot::variance_of(float sum, float sum_of_squares, std::uint32_t blocks) {

@@ -19,8 +19,10 @@ namespace pivot {
 /// placed points do better than their single samples show.
 class Pilot {
    public:
-    void add(float radiance);
-    float mean() const { return blocks_ > 0 ? sum_ / static_cast<float>(blocks_) : 0.0f; }
+    void add(float radiance) { add(radiance, radiance); }
+    /// counted: of the radiance, what its spread is told of.
+    void add(float radiance, float counted);
+    float mean() const { return blocks_ > 0 ? light_ / static_cast<float>(blocks_) : 0.0f; }
     /// Of one sample as blocks of them have it; 0 of fewer than two blocks.
     float variance() const { return variance_of(sum_, sum_of_squares_, blocks_); }
     /// The same without the brightest block, of three and more.
@@ -32,6 +34,7 @@ class Pilot {
     static constexpr std::uint32_t samples_per_block = 2;
     static float variance_of(float sum, float sum_of_squares, std::uint32_t blocks);
 
+    float block_of_light_ = 0.0f, light_ = 0.0f;
     float block_ = 0.0f, sum_ = 0.0f, sum_of_squares_ = 0.0f, most_ = 0.0f;
     std::uint32_t samples_ = 0, blocks_ = 0;
 };

@@ -112,6 +112,7 @@ class Session {
     RenderSettings settings_;
     std::shared_ptr<const SessionLights> known_lights_;
     PixelFilter filter_;
+    float denoised_part_;  ///< of what noise takes light that bounced off by, where one is to come
     PixelGrid squares_;
     Film film_;
     std::atomic<std::uint64_t> total_pixel_samples_;

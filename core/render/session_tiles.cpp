@@ -338,7 +338,10 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
                 const std::size_t named_passes = named.size() / samples.size();
                 std::fill_n(named.begin() + static_cast<std::ptrdiff_t>(at * named_passes), named_passes, Rgb(0.0f));
             }
-            if (!round.pilot.empty()) round.pilot[square].add(mean_component(samples[at].radiance));
+            if (round.pilot.empty()) continue;
+            const Rgb& radiance = samples[at].radiance;
+            round.pilot[square].add(mean_component(radiance),
+                                    mean_component(radiance - denoised_part_ * samples[at].indirect));
         }
     }
     return samples;

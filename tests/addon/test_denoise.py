@@ -102,6 +102,15 @@ def test_one_denoiser_cleans_pictures_of_any_size(case: tuple[Path, Any], name: 
     assert deviation < 0.4 * case[1]["grey"]["noisy"][4]
 
 
+def test_direct_light_is_denoised_where_it_is_noisy(case: tuple[Path, Any]) -> None:
+    if not case[1]["found"]:
+        pytest.skip("no Open Image Denoise here")
+    grey = case[1]["grey"]
+    assert grey["direct"][4] < 0.4 * grey["noisy"][4]
+    assert grey["direct"][3] == pytest.approx(grey["noisy"][3], rel=0.03)
+    assert grey["seen"] == grey["noisy"]
+
+
 def test_without_the_library_noise_stays_and_is_named(case: tuple[Path, Any]) -> None:
     folder, result = case
     (said,) = result["said"]["absent"]

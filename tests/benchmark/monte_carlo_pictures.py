@@ -84,7 +84,7 @@ class Gallery:
     def make(self, renderer: Renderer, scene: str, samples: int, seeds: Iterable[int], again: bool) -> bool:
         """Render the pictures and what is missing of the reference, or, unless again, find the last ones: whether
         they are all there."""
-        missing = [picture for picture in self._reference_parts(renderer, scene) if not self.file(picture).exists()]
+        missing = [picture for picture in self.reference_pictures(renderer, scene) if not self.file(picture).exists()]
         pictures = renderer.pictures(scene, samples, seeds)
         if not again:
             return not missing and all(self.file(picture).exists() for picture in pictures)
@@ -94,13 +94,13 @@ class Gallery:
 
     def make_reference(self, renderer: Renderer, scene: str) -> None:
         """Render what is missing of it."""
-        missing = [picture for picture in self._reference_parts(renderer, scene) if not self.file(picture).exists()]
+        missing = [picture for picture in self.reference_pictures(renderer, scene) if not self.file(picture).exists()]
         if missing:
             self.render(renderer, missing)
 
     def reference(self, renderer: Renderer, scene: str) -> tuple[Floats, Floats]:
         """Mean of the parts, and the variance of that mean."""
-        parts = [self.load(picture)[0] for picture in self._reference_parts(renderer, scene)]
+        parts = [self.load(picture)[0] for picture in self.reference_pictures(renderer, scene)]
         return np.mean(parts, 0), np.var(parts, 0, ddof=1) / len(parts)
 
     def measure(self, renderer: Renderer, scene: str, samples: int, seeds: Iterable[int]) -> dict[str, Any]:
@@ -135,7 +135,8 @@ class Gallery:
             "mean": float(mean.mean()),
         }
 
-    def _reference_parts(self, renderer: Renderer, scene: str) -> list[Picture]:
+    def reference_pictures(self, renderer: Renderer, scene: str) -> list[Picture]:
+        """The parts that a reference is the mean of."""
         samples = self.reference_samples[renderer.name] // REFERENCE_PARTS
         return [(scene, f"{renderer.name} reference", samples, 1000 + part) for part in range(REFERENCE_PARTS)]
 

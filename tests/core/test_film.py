@@ -9,6 +9,7 @@ import pytest
 from tests.core.scenes import Floats, add_plane, add_sphere, place, set_camera
 
 DENOISING_PASSES = ("Noisy Image", "Noisy Indirect", "Denoising Albedo", "Denoising Normal")
+VARIANCES = ("Direct Variance", "Indirect Variance")
 BOX = {"pixel_filter": "BOX", "filter_width_px": 0.0}
 
 
@@ -59,6 +60,29 @@ def test_noise_for_a_denoiser_is_each_pixels_own() -> None:
     assert abs(correlation(1)) < 0.1
 
 
+@pytest.mark.parametrize("light", ["Direct", "Indirect"])
+def test_noise_is_told_by_halves_of_what_comes_together(light: str) -> None:
+    settings = {"samples": 16, "filter_width_px": 3.0, "denoising_passes": True}
+    runs = [passes("Combined", "Indirect", f"{light} Variance", seed=seed, **settings) for seed in range(8)]
+    lights = np.array(
+        [indirect if light == "Indirect" else combined[..., :3] - indirect for combined, indirect, _ in runs]
+    )
+    told = np.mean([variance for *_, variance in runs])
+    # What varies smoothly is spread better in all of a pixel's samples than in those that came together.
+    assert 0.7 < told / lights.var(0, ddof=1).mean() < 3
+
+
+def test_a_picture_that_will_be_denoised_takes_fewer_samples() -> None:
+    def samples(is_denoised: bool) -> int:
+        settings = {"samples": 512, "adaptive": True, "error_budget_percent": 1.0, "denoising_passes": is_denoised}
+        session = pivot_core.Session(ball_on_a_floor(), pivot_core.RenderSettings(**settings))
+        session.start()
+        assert session.wait(60)
+        return int(session.pixel_samples)
+
+    assert samples(is_denoised=True) < 0.7 * samples(is_denoised=False)
+
+
 def test_light_is_direct_or_has_bounced() -> None:
     combined, indirect = passes("Combined", "Indirect", samples=256, max_bounces=3, **BOX)
     direct, none = passes("Combined", "Indirect", samples=256, max_bounces=0, seed=1, **BOX)
@@ -106,7 +130,7 @@ def test_a_denoiser_goes_by_what_mirrors_and_glass_show() -> None:
 
 
 def test_passes_for_a_denoiser_must_be_asked_for() -> None:
-    for name in DENOISING_PASSES:
+    for name in (*DENOISING_PASSES, *VARIANCES):
         with pytest.raises(ValueError, match=f"the pass '{name}' is for a denoiser: render with denoising_passes"):
             passes(name, samples=1)
     assert pivot_core.Session.bytes_per_pixel(False, True) > pivot_core.Session.bytes_per_pixel(False)

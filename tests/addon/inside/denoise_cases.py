@@ -56,10 +56,16 @@ def _of_grey_noise() -> dict[str, list[float]]:
     combined = np.concatenate([direct + indirect, np.ones_like(noise)], axis=-1)
     read = {"Combined": combined, "Indirect": indirect, "Noisy Indirect": indirect}
     read |= {"Noisy Image": combined, "Denoising Albedo": grey, "Denoising Normal": grey}
+    read |= {"Direct Variance": np.zeros_like(noise), "Indirect Variance": np.full_like(noise, 1 / 3)}
     denoiser, result = denoise.Denoiser(is_quick=True), {"noisy": combined}
     for name, mode, is_coarse in (("coarse", "ALL", True), ("indirect", "INDIRECT", True), ("fine", "ALL", False)):
         guides = denoiser.guides(read.__getitem__, is_coarse)
-        result[name] = denoiser.denoised(mode, read.__getitem__, guides)
+        result[name] = denoiser.denoised(mode, read.__getitem__, guides).combined
+    # The noise is direct light's, or for all that is known what is seen.
+    read |= {"Indirect": np.zeros_like(direct), "Noisy Indirect": np.zeros_like(direct)}
+    for name, variance in (("direct", 1 / 3), ("seen", 0)):
+        read["Direct Variance"] = np.full_like(noise, variance)
+        result[name] = denoiser.denoised("INDIRECT", read.__getitem__).combined
     return {
         name: [*picture.shape, float(picture[..., :3].mean()), float(picture[..., :3].std())]
         for name, picture in result.items()
