@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+from .. import denoise
+
 
 @dataclass(frozen=True)
 class Rung:
@@ -31,7 +33,9 @@ class Ladder:
     max_bounces: int = 0
 
     def of(self, renderer: str) -> list[Rung]:
-        return [rung for rung in self.rungs if rung.renderer == renderer]
+        """Of a renderer, those that this Blender can make."""
+        rungs = [rung for rung in self.rungs if rung.renderer == renderer]
+        return [rung for rung in rungs if "denoise" not in rung.settings or denoise.is_there()]
 
 
 REFERENCE_PARTS = 4  # of equal size: their differences tell the reference's own noise
@@ -78,9 +82,17 @@ def bounce_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], lights
         yield Rung("CYCLES", "Cycles", f"{samples}", samples, once)
 
 
+def denoised_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
+    """Light that bounced once, denoised."""
+    settings = {"integrator": "MONTE_CARLO", "light_sampling": "JOINT", "max_bounces": 1, "denoise": "INDIRECT"}
+    for count in samples:
+        yield Rung("PIVOT", "Monte Carlo, denoised", f"{count}", count, settings)
+
+
 FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 256), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
 PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 64)), 160, 1024)
 SMALL = Ladder((*pivot_rungs((1, 8), (1,), 4), *cycles_rungs((1, 8))), 32, 128)
-BOUNCE = Ladder(tuple(bounce_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), (256, 1024, 16384))), 240, 4096, max_bounces=1)
-SMALL_BOUNCE = Ladder(tuple(bounce_rungs((1, 8), (1,), (64,))), 32, 128, max_bounces=1)
+_BOUNCED = bounce_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), (256, 1024, 16384))
+BOUNCE = Ladder((*_BOUNCED, *denoised_rungs((4, 16, 64))), 240, 4096, max_bounces=1)
+SMALL_BOUNCE = Ladder((*bounce_rungs((1, 8), (1,), (64,)), *denoised_rungs((8,))), 32, 128, max_bounces=1)
 LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL, "BOUNCE": BOUNCE, "SMALL_BOUNCE": SMALL_BOUNCE}

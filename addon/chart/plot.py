@@ -15,6 +15,7 @@ from .pixels import write_png
 INK, GREY, PALE, FRONT = (0.13, 0.13, 0.15), (0.45, 0.45, 0.48), (0.9, 0.9, 0.91), (1.0, 0.88, 0.5)
 COLORS: dict[str, Color] = {
     "Monte Carlo, joint": (0.05, 0.25, 0.6),
+    "Monte Carlo, denoised": (0.1, 0.6, 0.65),
     "Monte Carlo, SPTD": (0.2, 0.5, 0.8),
     "Monte Carlo, MIS": (0.5, 0.75, 0.9),
     "Analytic": (0.75, 0.1, 0.1),

@@ -1,5 +1,5 @@
 """Pictures of Blender's current scene and the CPU seconds they cost: direct light if the settings' max_bounces say
-nothing else, box filter, no denoiser.
+nothing else, box filter, no denoiser but where the settings ask for Pivot's.
 
 A renderer is a context manager, ready when entered; render(settings, samples, seed) returns the picture (height, width,
 3), bottom row first, and the seconds of the render alone, all threads together.
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import core
+from ..denoise import Denoiser
 from ..export.camera import export_camera, render_frame
 from ..export.scene import export_scene
 from ..report import Reporter
@@ -69,6 +70,7 @@ def _pivot(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Re
 
     def render(settings: dict[str, Any], samples: int, seed: int) -> tuple[Floats, float]:
         changed = {"max_bounces": 0} | settings
+        mode = changed.pop("denoise", "NONE")
         if "error_budget" in changed:
             changed["error_budget_percent"] = changed.pop("error_budget")
         chosen = context.core.RenderSettings(
@@ -77,6 +79,7 @@ def _pivot(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Re
             threads=scene.render.threads,
             pixel_filter="BOX",
             filter_width_px=1.0,
+            denoising_passes=mode != "NONE",
             **changed,
         )
         session = context.core.Session(context.scene, chosen)
@@ -84,7 +87,8 @@ def _pivot(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Re
         session.start()
         while not session.wait(1.0):
             pass
-        return session.read("Combined")[..., :3], time.process_time() - start_s
+        picture = session.read("Combined") if mode == "NONE" else Denoiser().denoised(mode, session.read).combined
+        return picture[..., :3], time.process_time() - start_s
 
     render({}, 1, 0)  # builds the scene's BVH
     return render

@@ -76,7 +76,8 @@ class Gallery:
             common = {"scene": scene, "renderer": renderer.name, "settings": renderer.settings}
             jobs.append(common | {"samples": samples, "seed": seed, "file": str(file)})
         worker = [renderer.python, str(FOLDER / renderer.worker)]
-        environment = os.environ | {"PYTHONPATH": str(FOLDER)}
+        paths = [str(FOLDER), *filter(None, [os.environ.get("PYTHONPATH")])]
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
         subprocess.run(
             worker, check=True, input=json.dumps(jobs), text=True, stdout=subprocess.DEVNULL, env=environment
         )

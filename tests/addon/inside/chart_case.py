@@ -23,6 +23,7 @@ def main(folder: Path) -> Any:
     after = {name: getattr(pivot, name) for name in ("samples", *suggestion.rung.settings)}
     pivot.error_budget = 0.01
     return {
+        "has_denoiser": importlib.import_module("pivot.denoise").is_there(),
         "finished": list(finished),
         "is_running": chart.is_running,
         "size": list(image.size),
