@@ -256,7 +256,7 @@ void append(std::vector<LightDeposit>& to, const std::vector<LightDeposit>& from
 }
 
 std::size_t leaf_count(const VirtualLightTree& tree) {
-    return static_cast<std::size_t>(std::ranges::count(tree, 0u, &VirtualLight::child_count));
+    return static_cast<std::size_t>(std::ranges::count(tree.lights, 0u, &VirtualLight::child_count));
 }
 
 }  // namespace
@@ -277,8 +277,9 @@ VirtualLights trace_virtual_lights(const Scene& scene, const RenderSettings& set
         append(deposits.diffuse, part.diffuse);
         append(deposits.glossy, part.glossy);
     }
-    result.diffuse = build_virtual_lights(deposits.diffuse, settings.virtual_lights);
-    result.glossy = build_virtual_lights(deposits.glossy, settings.virtual_lights);
+    const std::size_t kinds = !deposits.diffuse.empty() && !deposits.glossy.empty() ? 2 : 1;
+    result.diffuse = build_virtual_lights(deposits.diffuse, settings.virtual_lights / kinds);
+    result.glossy = build_virtual_lights(deposits.glossy, settings.virtual_lights / kinds);
     result.light_count = leaf_count(result.diffuse) + leaf_count(result.glossy);
     result.photon_count = photons.size();
     result.build_s = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
