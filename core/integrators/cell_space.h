@@ -18,13 +18,16 @@ class CellSpace {
     }
     LightDeposit deposit(std::uint32_t id, std::uint32_t owner, const LightPlace& place, const Vec3f& axis,
                          const Rgb& power_w) const {
+        const Vec3f normal = abs(axis_from_world_ * place.normal);
+        const int flat_axis = normal.x >= normal.y && normal.x >= normal.z ? 0 : normal.y >= normal.z ? 1 : 2;
         return {place,
                 axis,
                 power_w,
                 id,
                 owner,
                 object_from_world_.point(place.position) * scale_,
-                normalize(axis_from_world_ * axis)};
+                normalize(axis_from_world_ * axis),
+                flat_axis};
     }
 
    private:

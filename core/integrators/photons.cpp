@@ -297,7 +297,7 @@ void append(std::vector<LightDeposit>& to, const std::vector<LightDeposit>& from
 }
 
 std::size_t leaf_count(const VirtualLightTree& tree) {
-    return static_cast<std::size_t>(std::ranges::count(tree, 0u, &VirtualLight::child_count));
+    return static_cast<std::size_t>(std::ranges::count(tree.lights, 0u, &VirtualLight::child_count));
 }
 
 }  // namespace
@@ -323,9 +323,10 @@ std::vector<VirtualLights> trace_virtual_lights(const Scene& scene, const Render
             append(deposits.glossy, part[set].glossy);
         }
         const std::size_t cells = cells_of_share(settings.virtual_lights, count, photons.size());
+        const std::size_t kinds = !deposits.diffuse.empty() && !deposits.glossy.empty() ? 2 : 1;
         VirtualLights result;
-        result.diffuse = build_virtual_lights(deposits.diffuse, cells);
-        result.glossy = build_virtual_lights(deposits.glossy, cells);
+        result.diffuse = build_virtual_lights(deposits.diffuse, cells / kinds);
+        result.glossy = build_virtual_lights(deposits.glossy, cells / kinds);
         if (result.is_empty()) continue;
         if (set < groups) result.light_group = set;
         result.light_count = leaf_count(result.diffuse) + leaf_count(result.glossy);

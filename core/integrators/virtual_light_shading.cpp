@@ -1,5 +1,6 @@
 #include "core/integrators/virtual_light_shading.h"
 
+#include "core/integrators/light_view.h"
 #include "core/integrators/passage.h"
 #include "core/sampling/sobol.h"
 #include "core/shading/ggx_gaussian_light.h"
@@ -23,6 +24,10 @@ constexpr float error_of_cluster = 0.1f, most_error_of_cluster = 0.5f;
 constexpr float error_of_glossy_cell = 0.07f;
 /// What mean_clamped_cosine is off by.
 constexpr float error_of_cosine = 0.02f;
+/// A leaf that gives more than share_to_open is seen as its quarters where it is nearer than this, rad^2, and these as
+/// theirs, so often at most: as a Gaussian it shines from where it is not, and not enough from where it touches.
+constexpr float near_variance = 0.1f;
+constexpr int most_quarterings = 3;
 /// And for a first look at how much light there is.
 constexpr float rough_variance = 0.3f;
 constexpr std::uint32_t rays_per_light = 2;
@@ -40,18 +45,6 @@ struct CutLight {
     Batch glossy_error = Batch(0.0f);   ///< of the closed form, relative
     Batch cluster_error = Batch(0.0f);  ///< of taking lights together, relative
 };
-
-/// The mean of the clamped cosine to axes about one at cosine z, of that variance: algebraic, and finite at all.
-Batch mean_clamped_cosine(const Batch& z, const Batch& variance) {
-    const Batch one(1.0f), spread = Batch(2.0f / pi<float>) * variance;
-    const Batch c = z * inverse(one + variance), tail = spread * inverse(one + Batch(4.0f) * spread);
-    return Batch(0.5f) * (c + sqrt(c * c + tail));
-}
-
-Batch smoothstep(const Batch& x) {
-    const Batch t = clamp01(x);
-    return t * t * (Batch(3.0f) - Batch(2.0f) * t);
-}
 
 class LightCut {
    public:
@@ -84,18 +77,21 @@ class LightCut {
         Batch sum(0.0f);
         in_both([&](const VirtualLightTree& tree, bool is_glossy) {
             cut_tree(
-                tree, tree[0], is_glossy, one, [&](const VirtualLight&, const View&) { return Batch(rough_variance); },
-                [&](const VirtualLight& light, const View& view, const Batch& weight) {
+                tree, tree.lights[0], is_glossy, one,
+                [&](const VirtualLight&, const LightView&) { return Batch(rough_variance); },
+                [&](const VirtualLight& light, const LightView& view, const Batch& weight) {
                     sum += weight * estimate(light, is_glossy, view);
                 });
         });
         total_ = sum;
         in_both([&](const VirtualLightTree& tree, bool is_glossy) {
             cut_tree(
-                tree, tree[0], is_glossy, one,
-                [&](const VirtualLight& light, const View& view) { return allowed_variance(light, is_glossy, view); },
-                [&](const VirtualLight& light, const View& view, const Batch& weight) {
-                    add(light, is_glossy, view, weight);
+                tree, tree.lights[0], is_glossy, one,
+                [&](const VirtualLight& light, const LightView& view) {
+                    return allowed_variance(light, is_glossy, view);
+                },
+                [&](const VirtualLight& light, const LightView& view, const Batch& weight) {
+                    add_near(tree.pieces_of(light), light, is_glossy, view, weight);
                 });
         });
     }
@@ -127,22 +123,25 @@ class LightCut {
         const Batch error_m = gather([&](std::size_t i) { return batch_.lanes[i]->point.error_m; });
         const Batch time = gather([&](std::size_t i) { return batch_.lanes[i]->point.time; });
         const Vec3b origin = batch_.position + normal_geometric_ * error_m;
-        for (std::size_t k = 0; k < cut_.size(); ++k) {
-            CutLight& cut = cut_[k];
-            const Batch size = size_of(cut);
-            asked[k] = size > Batch(share_for_rays * fineness_) * total_ && first_lanes(batch_.count);
-            if (!any(asked[k])) continue;
-            cut.visible = zero;
+        for (std::size_t first = 0, last = 0; first < cut_.size(); first = last) {
+            // Pieces of a light share its rays.
+            const VirtualLight& light = *cut_[first].light;
+            Batch size(0.0f), visible(0.0f);
+            for (; last < cut_.size() && cut_[last].light == &light; ++last) size += size_of(cut_[last]);
+            const BatchMask wanted = size > Batch(share_for_rays * fineness_) * total_ && first_lanes(batch_.count);
+            std::fill(asked.begin() + std::ptrdiff_t(first), asked.begin() + std::ptrdiff_t(last), wanted);
+            if (!any(wanted)) continue;
             for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
-                const PlaceInView place = place_in_view(*cut.light, asked[k], turn_ * rays_per_light + ray);
+                const PlaceInView place = place_in_view(light, wanted, turn_ * rays_per_light + ray);
                 RayOf<Batch> rays{origin, place.wi, zero,
-                                  select(place.is_faced && asked[k], place.distance_m * Batch(0.999f), zero), time};
+                                  select(place.is_faced && wanted, place.distance_m * Batch(0.999f), zero), time};
                 // Light from places that are all behind the surface comes through it.
                 const Vec3b left = light_left(scene, rays, links, shadow_path, memory);
-                cut.visible += select(place.is_faced, mean_component(left), zero) * Batch(1.0f / rays_per_light);
+                visible += select(place.is_faced, mean_component(left), zero) * Batch(1.0f / rays_per_light);
             }
-            seen += select(asked[k], size * cut.visible, zero);
-            all += select(asked[k], size, zero);
+            for (std::size_t k = first; k < last; ++k) cut_[k].visible = visible;
+            seen += select(wanted, size * visible, zero);
+            all += select(wanted, size, zero);
         }
         share_seen_ = select(all > zero, seen / max(all, tiny<Batch>), Batch(1.0f));
         for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k].visible = select(asked[k], cut_[k].visible, share_seen_);
@@ -219,46 +218,8 @@ class LightCut {
         return glossy_size_of(cut) +
                cut.diffuse * diffuse_weight_ * Batch(mean_component(abs(cut.light->power_w)) / pi<float>);
     }
-    /// How lights, or those below them, lie about each lane.
-    struct View {
-        Vec3b towards;  ///< world
-        Vec3b wi;       ///< in the shading frame
-        Batch distance2, variance;
-        Batch facing;  ///< cosine from their axis
-        Batch reach;   ///< tangent of the angle that all are within
-    };
-
-    View view_of(const VirtualLight& light) const {
-        const Vec3b to_mean = broadcast(light.mean) - batch_.position;
-        const Batch distance2 = max(dot(to_mean, to_mean), Batch(1e-20f)), inverse_distance = inverse_sqrt(distance2);
-        const Vec3b towards = to_mean * inverse_distance;
-        return {towards,
-                batch_.frame.to_local(towards),
-                distance2,
-                Batch(light.variance_m2) * inverse_distance * inverse_distance,
-                -dot(towards, broadcast(light.axis)),
-                Batch(light.bound_m) * inverse_distance};
-    }
-
-    /// Whether none of a light, nor those below it, shine at any lane.
-    bool is_dark(const VirtualLight& light, bool is_glossy, const View& view) const {
-        const Batch zero(0.0f);
-        BatchMask lit = view.wi.z + view.reach > zero && size_ > zero;
-        if (is_glossy) {
-            // exp(-15) of the peak, from the nearest of them
-            const Batch gap = sqrt(max(Batch(2.0f) - Batch(2.0f) * view.facing, zero)) - view.reach;
-            lit = lit && Batch(0.5f * light.sharpness) * sqr(max(gap, zero)) < Batch(15.0f);
-        } else if (light.sharpness > 1e4f) {
-            const Batch height = -dot(view.towards, broadcast(light.axis)) * sqrt(view.distance2);
-            lit = lit && height > Batch(light.lowest_m + 1e-3f * std::sqrt(light.variance_m2));
-        } else {
-            lit = lit && view.facing + view.reach + Batch(3.0f / std::sqrt(std::max(light.sharpness, 1e-3f))) > zero;
-        }
-        return !any(lit);
-    }
-
     /// About the most that lights reflect.
-    Batch estimate(const VirtualLight& light, bool is_glossy, const View& view) const {
+    Batch estimate(const VirtualLight& light, bool is_glossy, const LightView& view) const {
         const Batch one(1.0f), zero(0.0f), deviation = sqrt(view.variance);
         Batch emitted;
         if (is_glossy) {
@@ -284,7 +245,7 @@ class LightCut {
     }
 
     /// The variance of directions up to which lights that are all there is may be taken together.
-    Batch usual_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
+    Batch usual_variance(const VirtualLight& light, bool is_glossy, const LightView& view) const {
         Batch allowed(largest_variance);
         if (receiver_) {
             const Vec3b& wo = batch_.lobe.wo_local;
@@ -303,7 +264,7 @@ class LightCut {
     }
 
     /// The same by the budget. What is little of all may be off by more.
-    Batch allowed_variance(const VirtualLight& light, bool is_glossy, const View& view) const {
+    Batch allowed_variance(const VirtualLight& light, bool is_glossy, const LightView& view) const {
         const Batch little =
             Batch(share_to_open) * total_ * inverse(max(estimate(light, is_glossy, view), tiny<Batch>));
         return Batch(fineness_) * usual_variance(light, is_glossy, view) * max(Batch(1.0f), little);
@@ -314,8 +275,8 @@ class LightCut {
     void cut_tree(const VirtualLightTree& tree, const VirtualLight& light, bool is_glossy, const Batch& weight,
                   const Allowed& allowed, const Visit& visit) const {
         const Batch zero(0.0f), one(1.0f);
-        const View view = view_of(light);
-        if (is_dark(light, is_glossy, view)) return;
+        const LightView view = view_of(batch_, light);
+        if (is_dark(light, is_glossy, view, size_ > Batch(0.0f))) return;
         Batch together = weight;
         if (light.child_count > 0) {
             const Batch apart = smoothstep(Batch(2.0f) * view.variance * inverse(allowed(light, view)) - one);
@@ -323,12 +284,38 @@ class LightCut {
             const Batch below = weight * apart;
             if (any(below > zero))
                 for (std::uint32_t i = 0; i < light.child_count; ++i)
-                    cut_tree(tree, tree[light.first_child + i], is_glossy, below, allowed, visit);
+                    cut_tree(tree, tree.lights[light.first_child + i], is_glossy, below, allowed, visit);
         }
         if (any(together > zero)) visit(light, view, together);
     }
 
-    void add(const VirtualLight& light, bool is_glossy, const View& view, const Batch& weight) {
+    /// A light as its pieces where it is near; `piece` is one, of which there are 4^quarterings.
+    void add_near(const LightPieces* pieces, const VirtualLight& light, bool is_glossy, const LightView& view,
+                  const Batch& weight, int quarterings = 0, std::size_t index = 0, const LightPiece& piece = {}) {
+        const Batch zero(0.0f), one(1.0f);
+        Batch together = weight;
+        if (pieces && quarterings < most_quarterings) {
+            const BatchMask matters = weight * estimate(light, is_glossy, view) > Batch(share_to_open) * total_;
+            const Batch near = smoothstep(Batch(2.0f / near_variance) * view.variance - one);
+            const Batch below = select(matters, weight * near, zero);
+            together = weight - below;
+            for (std::size_t k = 0; k < 4 && any(below > zero); ++k) {
+                const std::size_t part_index = 4 * index + k;
+                const LightPiece part = quarterings == 0   ? pieces->quarters[part_index]
+                                        : quarterings == 1 ? pieces->sixteenths[part_index]
+                                                           : pieces->part_of(piece, k, quarterings - 2);
+                if (!(part.share > 0.0f)) continue;
+                const LightView of_part = view_of(batch_, light, part);
+                const float of_whole = quarterings == 0 ? 1.0f : piece.share;
+                if (!is_dark(light, is_glossy, of_part, size_ > zero))
+                    add_near(pieces, light, is_glossy, of_part, below * Batch(part.share / of_whole), quarterings + 1,
+                             part_index, part);
+            }
+        }
+        if (any(together > zero)) add(light, is_glossy, view, together);
+    }
+
+    void add(const VirtualLight& light, bool is_glossy, const LightView& view, const Batch& weight) {
         const Batch zero(0.0f);
         const Batch variance = max(view.variance, Batch(least_variance));
         SphericalGaussian<Batch> seen{view.wi, inverse(variance), zero};

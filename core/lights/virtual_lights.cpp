@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/distributions/spherical_gaussian.h"
-#include "core/sampling/sobol.h"
+#include "core/lights/light_cells.h"
 
 namespace pivot {
 namespace {
@@ -53,164 +53,20 @@ struct LightSums {
     }
 };
 
-struct CellKey {
-    std::uint32_t owner;
-    std::uint16_t level, direction;
-    std::array<std::int32_t, 3> place;
-
-    static constexpr std::uint16_t joins = 8;
-
-    bool operator==(const CellKey&) const = default;
-    /// The cell that joins this one with its neighbours. Cells that join are apart from those that deposits fill.
-    CellKey parent() const {
-        return {owner,
-                static_cast<std::uint16_t>(level + 1),
-                static_cast<std::uint16_t>(direction | joins),
-                {place[0] >> 1, place[1] >> 1, place[2] >> 1}};
-    }
-};
-
-struct CellHash {
-    std::size_t operator()(const CellKey& key) const {
-        std::uint32_t h = hash(key.owner, std::uint32_t{key.level} << 4 | key.direction);
-        for (const std::int32_t x : key.place) h = hash(h, static_cast<std::uint32_t>(x));
-        return h;
-    }
-};
-
-/// Cells in the order in which they were met, found by key in an open table.
-template <class Value>
-class CellMap {
-   public:
-    std::uint32_t find_or_add(const CellKey& key) {
-        if (2 * (keys_.size() + 1) > table_.size()) grow();
-        for (std::size_t at = CellHash()(key) & (table_.size() - 1);; at = (at + 1) & (table_.size() - 1)) {
-            if (table_[at] == none) {
-                table_[at] = static_cast<std::uint32_t>(keys_.size());
-                keys_.push_back(key);
-                values_.emplace_back();
-                return table_[at];
-            }
-            if (keys_[table_[at]] == key) return table_[at];
-        }
-    }
-    std::size_t size() const { return keys_.size(); }
-    const CellKey& key(std::size_t i) const { return keys_[i]; }
-    Value& operator[](std::size_t i) { return values_[i]; }
-
-   private:
-    static constexpr std::uint32_t none = ~0u;
-
-    void grow() {
-        table_.assign(std::max<std::size_t>(64, 2 * table_.size()), none);
-        for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-            std::size_t at = CellHash()(keys_[i]) & (table_.size() - 1);
-            while (table_[at] != none) at = (at + 1) & (table_.size() - 1);
-            table_[at] = i;
-        }
-    }
-
-    std::vector<std::uint32_t> table_;
-    std::vector<CellKey> keys_;
-    std::vector<Value> values_;
-};
-
-struct Nothing {};
-
 struct Cell {
     LightSums sums;
     std::vector<std::uint32_t> children;  ///< cells
 };
 
-/// Far beyond what a float can tell apart.
-std::int32_t cell_coordinate(float x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), -1e9f, 1e9f)); }
-
-/// How large cells are: 2^exponent metres, and the part of the light that goes to cells of twice that.
-struct CellSize {
-    int exponent;
-    float coarser;
-    float edge_m() const { return std::ldexp(1.0f, exponent); }
-};
-
-/// Some deposits tell how large cells are to be.
-constexpr float deposits_asked = 16384.0f;
-
-std::size_t cells_filled(std::span<const LightDeposit* const> deposits, float edge_m) {
-    CellMap<Nothing> cells;
-    for (const LightDeposit* d : deposits) {
-        CellKey key{d->owner, 0, 0, {}};
-        for (int c = 0; c < 3; ++c)
-            key.place[static_cast<std::size_t>(c)] = cell_coordinate(d->cell_position[c] / edge_m + 0.5f);
-        cells.find_or_add(key);
-    }
-    return cells.size();
-}
-
-constexpr std::size_t places_per_cell = 4;  ///< at least, in the mean
-
-/// Between the two sizes that fill fewer and more cells than asked for, by the logarithm.
-CellSize cell_size(std::span<const LightDeposit> all, std::size_t most_cells) {
-    Vec3f low(std::numeric_limits<float>::infinity()), high = -low;
-    std::vector<const LightDeposit*> deposits;
-    const float share =
-        std::max(deposits_asked, 8.0f * static_cast<float>(most_cells)) / static_cast<float>(all.size());
-    for (const LightDeposit& d : all) {
-        if (to_unit(hash(d.id, 0x63656c6cu)) < share) deposits.push_back(&d);
-        low = min(low, d.cell_position), high = max(high, d.cell_position);
-    }
-    const float size_m = std::clamp(max_component(high - low), 1e-6f, 1e9f);
-    int exponent = std::ilogb(size_m) + 1;
-    // What reaches few places is no better for cells that hold one of them each.
-    const std::size_t places = cells_filled(deposits, std::ldexp(1.0f, exponent - 16));
-    const std::size_t cell_count = std::min(most_cells, std::max<std::size_t>(places / places_per_cell, 1));
-    std::size_t fewer = cells_filled(deposits, std::ldexp(1.0f, exponent));
-    for (const int last = exponent - 16; exponent > last && fewer < cell_count;) {
-        const std::size_t more = cells_filled(deposits, std::ldexp(1.0f, exponent - 1));
-        --exponent;
-        if (more >= cell_count) {
-            const auto log_of = [](std::size_t n) { return std::log(static_cast<float>(n)); };
-            const float part = (log_of(more) - log_of(cell_count)) / std::max(log_of(more) - log_of(fewer), 1e-6f);
-            return {exponent, clamp01(part)};
-        }
-        fewer = more;
-    }
-    return {exponent, 0.0f};
-}
-
-/// The cells about a deposit, of one size, and what each gets of it.
-template <class Visit>
-void for_each_cell(const LightDeposit& d, float edge_m, std::uint16_t level, const Visit& visit) {
-    std::array<std::int32_t, 3> first;
-    std::array<float, 3> part;
-    for (int c = 0; c < 3; ++c) {
-        const float x = d.cell_position[c] / edge_m, before = std::floor(x);
-        first[static_cast<std::size_t>(c)] = cell_coordinate(x);
-        part[static_cast<std::size_t>(c)] = std::clamp(x - before, 0.0f, 1.0f);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        const float of_axis = sqr(d.cell_axis[axis]);
-        if (of_axis < 1e-4f) continue;
-        const auto direction = static_cast<std::uint16_t>(2 * axis + (d.cell_axis[axis] > 0.0f ? 1 : 0));
-        for (std::int32_t corner = 0; corner < 8; ++corner) {
-            float share = of_axis;
-            CellKey key{d.owner, level, direction, first};
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::int32_t next = corner >> c & 1;
-                key.place[c] += next;
-                share *= next ? part[c] : 1.0f - part[c];
-            }
-            if (share > 1e-4f) visit(key, share);
-        }
-    }
-}
-
 class TreeBuilder {
    public:
-    TreeBuilder(std::span<const LightDeposit> deposits, CellMap<Cell>& cells, float least_variance_m2)
-        : deposits_(deposits), cells_(cells), least_variance_m2_(least_variance_m2) {}
+    /// pieces: of the first cells, which deposits fill.
+    TreeBuilder(std::span<const LightDeposit> deposits, std::span<const PieceSums> pieces, CellMap<Cell>& cells,
+                float least_variance_m2)
+        : deposits_(deposits), pieces_(pieces), cells_(cells), least_variance_m2_(least_variance_m2) {}
 
     VirtualLightTree build(std::vector<std::uint32_t> roots) {
-        tree_.emplace_back();
+        tree_.lights.emplace_back();
         put(0, join(std::move(roots)));
         return std::move(tree_);
     }
@@ -258,24 +114,31 @@ class TreeBuilder {
     /// Writes a cell and all below it; one child alone is passed over. Returns its lobe_sharpness.
     float put(std::size_t at, std::uint32_t cell) {
         while (cells_[cell].children.size() == 1 && is_all(cell)) cell = cells_[cell].children[0];
-        tree_[at] = light_of(cells_[cell].sums);
+        std::vector<VirtualLight>& lights = tree_.lights;
+        lights[at] = light_of(cells_[cell].sums);
         const std::vector<std::uint32_t> children = cells_[cell].children;
-        if (children.empty()) return tree_[at].lobe_sharpness;
-        const std::size_t first = tree_.size();
-        tree_[at].first_child = static_cast<std::uint32_t>(first);
-        tree_[at].child_count = static_cast<std::uint32_t>(children.size());
-        tree_.resize(first + children.size());
+        if (children.empty()) {
+            if (const auto pieces = pieces_[cell].pieces()) {
+                lights[at].pieces = static_cast<std::uint32_t>(tree_.pieces.size());
+                tree_.pieces.push_back(*pieces);
+            }
+            return lights[at].lobe_sharpness;
+        }
+        const std::size_t first = lights.size();
+        lights[at].first_child = static_cast<std::uint32_t>(first);
+        lights[at].child_count = static_cast<std::uint32_t>(children.size());
+        lights.resize(first + children.size());
         double spread = 0.0;
-        tree_[at].bound_m = 0.0f;
+        lights[at].bound_m = 0.0f;
         for (std::size_t i = 0; i < children.size(); ++i) {
             const double of_lobe = 1.0 / static_cast<double>(put(first + i, children[i]));
             spread += of_lobe * cells_[children[i]].sums.weight / cells_[cell].sums.weight;
-            const VirtualLight& child = tree_[first + i];
-            const Vec3f away = child.mean - tree_[at].mean;
-            tree_[at].bound_m = std::max(tree_[at].bound_m, length(away) + child.bound_m);
-            tree_[at].lowest_m = std::min(tree_[at].lowest_m, dot(away, tree_[at].axis) + child.lowest_m);
+            const VirtualLight& child = lights[first + i];
+            const Vec3f away = child.mean - lights[at].mean;
+            lights[at].bound_m = std::max(lights[at].bound_m, length(away) + child.bound_m);
+            lights[at].lowest_m = std::min(lights[at].lowest_m, dot(away, lights[at].axis) + child.lowest_m);
         }
-        return tree_[at].lobe_sharpness = static_cast<float>(1.0 / spread);
+        return lights[at].lobe_sharpness = static_cast<float>(1.0 / spread);
     }
 
     bool is_all(std::uint32_t cell) const {
@@ -304,6 +167,7 @@ class TreeBuilder {
     }
 
     std::span<const LightDeposit> deposits_;
+    std::span<const PieceSums> pieces_;
     CellMap<Cell>& cells_;
     float least_variance_m2_;
     std::int32_t next_join_ = 0;
@@ -313,6 +177,8 @@ class TreeBuilder {
 /// A cell that is lit evenly has a variance of a sixth of its edge squared; what a few deposits, or one, say of theirs
 /// is no less than this part of it, lest they seem points, whose light has no bound.
 constexpr float few_deposits = 24.0f;
+/// What a cell gets less of than this tells nothing of how its light is spread.
+constexpr float least_share_of_pieces = 0.01f;
 /// Cells are joined by eights so many times before objects are joined by where they stand.
 constexpr int levels_of_object = 7;
 
@@ -322,14 +188,22 @@ VirtualLightTree build_virtual_lights(std::span<const LightDeposit> deposits, st
     if (deposits.empty()) return {};
     const CellSize size = cell_size(deposits, cell_count);
     CellMap<Cell> cells;
+    std::vector<PieceSums> pieces;
     for (std::uint32_t i = 0; i < deposits.size(); ++i) {
+        const LightDeposit& deposit = deposits[i];
         for (const std::uint16_t level : {0, 1}) {
             const float of_level = level == 1 ? size.coarser : 1.0f - size.coarser;
             if (!(of_level > 0.0f)) continue;
-            for_each_cell(deposits[i], size.edge_m() * (level == 1 ? 2.0f : 1.0f), level,
-                          [&](const CellKey& key, float share) {
-                              cells[cells.find_or_add(key)].sums.add(deposits[i], i, double(share * of_level));
-                          });
+            const float edge_m = size.edge_m() * (level == 1 ? 2.0f : 1.0f);
+            for_each_cell(deposit, edge_m, level, [&](const CellKey& key, float share) {
+                const std::uint32_t cell = cells.find_or_add(key);
+                if (cell == pieces.size()) pieces.emplace_back();
+                cells[cell].sums.add(deposit, i, double(share * of_level));
+                if (share < least_share_of_pieces) return;
+                const Vec3f middle(key.place[0], key.place[1], key.place[2]);
+                pieces[cell].add(deposit.cell_position / edge_m - middle, deposit.flat_axis, deposit.place.position,
+                                 share * of_level * mean_component(abs(deposit.power_w)));
+            });
         }
     }
     std::array<std::vector<std::uint32_t>, levels_of_object + 1> of_level;
@@ -346,7 +220,7 @@ VirtualLightTree build_virtual_lights(std::span<const LightDeposit> deposits, st
     }
     std::vector<std::uint32_t> roots = std::move(of_level[levels_of_object]);
     if (roots.empty()) return {};
-    return TreeBuilder(deposits, cells, sqr(size.edge_m()) / few_deposits).build(std::move(roots));
+    return TreeBuilder(deposits, pieces, cells, sqr(size.edge_m()) / few_deposits).build(std::move(roots));
 }
 
 }  // namespace pivot

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "core/lights/light_pieces.h"
 #include "core/math/vector.h"
 
 namespace pivot {
@@ -34,11 +35,13 @@ struct LightDeposit {
     std::uint32_t owner;  ///< an object: cells hold the light of one
     Vec3f cell_position;  ///< in its own space, metres
     Vec3f cell_axis;      ///< likewise, unit
+    int flat_axis;        ///< that one of its object's that the place's surface faces most
 };
 
 /// Lights together, or one: the leaf of a tree has no children.
 struct VirtualLight {
     static constexpr std::size_t place_count = 4;
+    static constexpr std::uint32_t no_pieces = ~0u;
 
     Vec3f mean;
     float variance_m2;     ///< of places, about the mean across any line of sight
@@ -49,11 +52,20 @@ struct VirtualLight {
     float lowest_m;        ///< of the leaves' means, along the axis from the mean
     Rgb power_w;
     std::uint32_t first_child = 0, child_count = 0;
+    std::uint32_t pieces = no_pieces;            ///< of a leaf, among its tree's
     std::array<LightPlace, place_count> places;  ///< spread as its light is: where shadow rays end
 };
 
 /// A tree of lights, the root first; empty where there is no light.
-using VirtualLightTree = std::vector<VirtualLight>;
+struct VirtualLightTree {
+    std::vector<VirtualLight> lights;
+    std::vector<LightPieces> pieces;
+
+    bool empty() const { return lights.empty(); }
+    const LightPieces* pieces_of(const VirtualLight& light) const {
+        return light.pieces == VirtualLight::no_pieces ? nullptr : &pieces[light.pieces];
+    }
+};
 
 struct VirtualLights {
     VirtualLightTree diffuse, glossy;
