@@ -861,7 +861,7 @@ class Scene:
         vertex_normals: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] | None = None,
     ) -> None:
         """
-        Of each step, likewise, what add_mesh was given, which is the middle of the motion.
+        Of each step, likewise, what add_mesh or add_curves was given, which is the middle of the motion.
         """
     def set_world(
         self,
