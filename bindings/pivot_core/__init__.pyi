@@ -47,6 +47,8 @@ __all__: list[str] = [
     "TabulatedNdf",
     "VoxelGrid",
     "arch",
+    "fog_lamp_pdf",
+    "fog_lamp_samples",
     "ops",
     "run_op",
     "version",
@@ -1033,6 +1035,28 @@ class Session:
         """
     @property
     def width(self) -> int: ...
+
+def fog_lamp_pdf(
+    light: SphereLight | SpotLight | SunLight | AreaLight,
+    g: typing.SupportsFloat | typing.SupportsIndex,
+    position: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+    direction: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+    wi: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    fog_lamp_pdf(light, g, position, direction, wi): the density of fog_lamp_samples at wi (n, 3), 0 beside the lamp: (n,).
+    """
+
+def fog_lamp_samples(
+    light: SphereLight | SpotLight | SunLight | AreaLight,
+    g: typing.SupportsFloat | typing.SupportsIndex,
+    position: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+    direction: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+    u: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+) -> tuple:
+    """
+    fog_lamp_samples(light, g, position, direction, u): what u (n, 2) in [0, 1) sample of a lamp from a place in fog of Henyey and Greenstein's phase function that a ray along `direction` crosses: wi (n, 3) and their density per steradian (n,).
+    """
 
 def ops() -> dict:
     """

@@ -177,8 +177,8 @@ Vec3b transmittance_to_lamp(const Light& lamp, const FogPart& part, const Batch&
 bool is_sharp_beside(const AreaLight& light, const MediumMix& mix, float distance_m) {
     const float reach_m = length(light.half_u) + length(light.half_v);
     for (const ScatterLobe& lobe : mix.lobes) {
-        const float g = std::abs(lobe.phase.g), ten_widths = 10.0f * (1.0f - g);
-        if (g * sqr(reach_m) > sqr(ten_widths * distance_m)) return true;
+        const float g = std::abs(lobe.phase.g), widths = 30.0f * (1.0f - g);
+        if (g * sqr(reach_m) > sqr(widths * distance_m)) return true;
     }
     return false;
 }
