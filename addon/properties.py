@@ -172,8 +172,9 @@ class PivotSettings(bpy.types.PropertyGroup):
     error_budget: FloatProperty(
         name="Error Budget",
         description=(
-            "The largest error that closed forms may have, or that adaptive sampling may leave in the picture. "
-            "Analytic shadows take more rays the smaller it is; how far off they may be is in the Error pass"
+            "The largest error that closed forms may have, or that adaptive sampling may leave in the picture as it "
+            "is, or as the denoiser leaves it. Analytic shadows take more rays the smaller it is; how far off they may "
+            "be is in the Error pass"
         ),
         default=2.0,
         min=0.01,

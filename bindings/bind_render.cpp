@@ -220,7 +220,8 @@ void register_render(py::module_& module) {
             "integrator, black elsewhere: Method, the colours of the methods taken; Error, the relative error "
             "predicted. With denoising_passes, by Monte Carlo, for a denoiser, of each pixel's own samples, which no "
             "pixel filter shares: Noisy Image and Noisy Indirect, as Combined and Indirect; Denoising Albedo, of all "
-            "lobes; Denoising Normal. With surface_passes: by what surfaces reflect light, over their own colours, "
+            "lobes; Denoising Normal; Direct Variance and Indirect Variance, of Combined without Indirect and of that, "
+            "over their colours. With surface_passes: by what surfaces reflect light, over their own colours, "
             "DiffDir, DiffInd, GlossDir, GlossInd, TransDir and TransInd, which the analytic integrator leaves black; "
             "these colours, Diffuse Color, GlossCol and TransCol; Env, what is seen of the world; UV, by the attribute "
             "uv_attribute; Vector, see set_camera; Mist, of (start_m, depth_m, power) mist; IndexOB and IndexMA.");

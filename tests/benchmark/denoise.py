@@ -35,7 +35,7 @@ DENOISED_CYCLES = {
 }
 LADDER = (4, 8, 16, 32, 64)  # Pivot's samples; Cycles takes twice as many
 GOOD_FLIP = 0.03
-PIECE_PX, ZOOM = (64, 52), 2  # of each picture in the sheet
+PIECE_PX, ZOOM = (60, 46), 2  # of each picture in the sheet
 COLUMNS = {
     "pivot NONE": "Pivot",
     "pivot INDIRECT": "Indirect",
