@@ -323,16 +323,19 @@ void register_scene(py::module_& module) {
         .def(
             "add_light",
             [](Scene& scene, const string& name, const Light& light, const RayNames& hidden_from,
-               std::uint32_t max_bounces, int light_group, const Masks& links) {
+               std::uint32_t max_bounces, int light_group, const Masks& links, const optional<Shader>& shader) {
                 return scene.add_light(name, light, rules_of(hidden_from, max_bounces, links),
-                                       static_cast<std::uint32_t>(light_group));
+                                       static_cast<std::uint32_t>(light_group),
+                                       shader ? std::make_shared<const Shader>(*shader) : nullptr);
             },
             py::arg("name"), py::arg("light"), py::arg("hidden_from") = RayNames{}, py::arg("max_bounces") = ~0u,
-            py::arg("light_group") = -1, py::arg("links") = all_sets,
+            py::arg("light_group") = -1, py::arg("links") = all_sets, py::arg("shader") = py::none(),
             "hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and "
             "VOLUME_SCATTER; "
             "SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone. "
-            "light_group, links: as in add_instances.")
+            "light_group, links: as in add_instances. shader: by Monte Carlo its emission is what is left of the "
+            "light, "
+            "from each place of the lamp.")
         .def(
             "set_material",
             [](Scene& scene, std::uint32_t id, const Shader& material, const optional<MediumShare>& medium,

@@ -9,6 +9,7 @@
 #include "bindings/lobes.h"
 #include "bindings/register.h"
 #include "core/bsdf/lobe.h"
+#include "core/shaders/lamp_mean.h"
 #include "core/shaders/shader.h"
 #include "core/shaders/volume_places.h"
 #include "core/textures/image.h"
@@ -228,6 +229,8 @@ void register_shaders(py::module_& module) {
              "'normal': the shading normal in world space; or 'own_normal', where displacement turns the surface's "
              "own; 'tangent': which way x lies of pictures of microfacets, world space.");
     py::implicitly_convertible<OwnedMaterial, Shader>();
+    module.def("mean_lamp_share", &mean_lamp_share, py::arg("shader"), py::arg("light"),
+               "mean_lamp_share(shader, light): what a lamp's shader leaves of its light on the whole, in grey.");
 }
 
 }  // namespace pivot::bindings

@@ -17,9 +17,9 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_ndf(module);
     register_material(module);
     register_images(module);
+    register_lights(module);
     register_shaders(module);
     register_camera(module);
-    register_lights(module);
     register_scene(module);
     register_rays(module);
     register_light_samples(module);

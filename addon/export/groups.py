@@ -47,6 +47,7 @@ class Group:
     is_placed: bool  # what fills it is as its first instance has it
     is_filled: bool
     shines: bool
+    is_holdout: bool  # whatever the object says
     attributes: tuple[tuple[str, tuple[float, ...]], ...] = ()  # of the object and its instancer
 
 
@@ -59,6 +60,7 @@ def _group_of(
     reads: frozenset[str] = frozenset(),
     is_filled: bool = True,
     shines: bool = False,
+    is_holdout: bool = False,
 ) -> Group:
     matte = mattes.id_of("OBJECT", blender_object.name), mattes.id_of("ASSET", asset_name(blender_object))
     return Group(
@@ -77,6 +79,7 @@ def _group_of(
         is_placed=is_placed,
         is_filled=is_filled,
         shines=shines,
+        is_holdout=is_holdout,
     )
 
 
@@ -127,6 +130,7 @@ class GroupMaker:
                     slots.attributes,
                     slots.is_filled,
                     slots.shines,
+                    slots.is_holdout,
                 )
                 for part, is_passed in parts
             ]
@@ -154,7 +158,18 @@ class GroupMaker:
             if slot not in slots.without_surface:
                 curves, material = self._core_curves(blender_object, source, slots.of_mesh()), (slots.ids[slot],)
                 mattes, attributes = self._context.mattes, slots.attributes
-                groups.append(_group_of(blender_object, curves, material, False, mattes, attributes, is_filled=False))
+                groups.append(
+                    _group_of(
+                        blender_object,
+                        curves,
+                        material,
+                        False,
+                        mattes,
+                        attributes,
+                        is_filled=False,
+                        is_holdout=slots.is_holdout,
+                    )
+                )
                 self._context.placed.curves.setdefault(curves, (index, source.name))
         return groups
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import mmap
 import os
 import re
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -125,13 +126,15 @@ def _image_of(data: bytes, image: Any, aside: bpy.types.BlendData) -> Any:
 
 
 def _first_layer(image: Any, part: Part) -> bytes | None:
-    """A file of what Cycles reads of a file of layers; None where it is none."""
+    """A file of what Cycles reads of a file of layers; None where it is none, or broken: Blender finds that as well."""
     if not image.filepath.lower().endswith(".exr") or image.source == "GENERATED":
         return None
-    if image.packed_file:
-        return first_layer(image.packed_file.data)
-    with suppress(OSError), open(part.path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        return first_layer(data)
+    with suppress(OSError, IndexError, KeyError, struct.error):
+        if image.packed_file:
+            return first_layer(image.packed_file.data)
+        if os.path.getsize(part.path):
+            with open(part.path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+                return first_layer(data)
     return None
 
 

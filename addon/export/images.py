@@ -7,9 +7,6 @@ from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..ndf.image import ndf_pixels
 from .image_parts import Tile, frame_shown, image_parts, image_state, opened
 from .image_pixels import associates_alpha, stored_pixels
@@ -24,15 +21,6 @@ class Picture:
     tiles: dict[Tile, Any]  # pivot_core.Image
     is_tiled: bool  # else its only tile is everywhere
     is_associated: bool  # whether colours are kept multiplied by alpha
-
-    def mean(self, equirectangular: bool = False) -> NDArray[np.float64]:
-        """(4,) linear RGBA averaged over the picture, or over the sphere that it covers."""
-        image = next(iter(self.tiles.values()))
-        levels = (image.level(index) for index in range(image.level_count))
-        rgba = next(level for level in levels if level.shape[0] <= 64).astype(np.float64)
-        latitude = (np.arange(rgba.shape[0]) + 0.5) / rgba.shape[0] - 0.5
-        weights = np.cos(np.pi * latitude) if equirectangular else np.ones_like(latitude)
-        return np.average(rgba.mean(axis=1), axis=0, weights=weights)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,8 @@ Attributes = dict[bytes, tuple[bytes, bytes]]  # type and value, by name
 def first_layer(data: Data) -> bytes | None:
     """An OpenEXR file of what Cycles reads of another; None where that has no layers.
 
-    Raises ValueError where the first layer is not of R, G, B and A.
+    Raises ValueError where the first layer is not of R, G, B and A, and IndexError, KeyError or struct.error where
+    the file is broken.
     """
     version = struct.unpack_from("<I", data, 4)[0]
     headers, at = _headers(data, bool(version & _PARTS))
@@ -104,6 +105,8 @@ def _named(channels: list[tuple[bytes, bytes]], names: dict[bytes, bytes]) -> by
 
 
 def _text(data: Data, at: int) -> tuple[bytes, int]:
-    """Up to a zero, and where the next thing begins."""
+    """Up to a zero, and where the next thing begins. Raises IndexError where the data ends before."""
     end = data.find(b"\0", at)
+    if end < 0:
+        raise IndexError("a name without an end")
     return data[at:end], end + 1

@@ -19,8 +19,9 @@ from .census import report_left_out
 from .context import Context
 from .light_groups import light_group
 from .nodes import Owner, active_tree
-from .program import Program
+from .program import Program, Value
 from .shader import light_emission
+from .surface import Surface
 from .visibility import Visible
 
 _AREA_EXITANCE_PER_RADIANCE = math.pi if bpy.app.version >= (4, 0) else 4.0
@@ -50,7 +51,18 @@ def export_light(
         report_left_out(described, owner, context.reporter)
     _warn_of_uneven_scale(owner, data, object_to_world, context.reporter)
     with naming(owner, "give its power, colour and size finite values"):
-        light = _LIGHTS[data.type](context, data, _strength(context, data, owner), object_to_world)
+        make, strength, shader = _LIGHTS[data.type], _strength(data), None
+        tree = active_tree(data)
+        if tree is not None:
+            share = _share(context, data, tree, owner, object_to_world)
+            if share.is_constant:
+                strength *= share.numbers
+            elif (light := make(context, data, np.ones(3), object_to_world)) is not None:
+                # What a lamp is chosen by is its mean, so that is its strength.
+                mean = context.core.mean_lamp_share(_emitting(share), light) or 1.0
+                strength *= mean
+                shader = _emitting(share / mean)
+        light = make(context, data, strength, object_to_world)
         if light is not None:
             context.scene.add_light(
                 light_object.name,
@@ -59,6 +71,7 @@ def export_light(
                 max_bounces=_max_bounces(data),
                 light_group=light_group(context.depsgraph.view_layer, light_object),
                 links=links,
+                shader=shader,
             )
 
 
@@ -80,19 +93,28 @@ def _is_portal(data: Any) -> bool:
     return data.type == "AREA" and getattr(getattr(data, "cycles", None), "is_portal", False)
 
 
-def _strength(context: Context, data: Any, owner: str) -> NDArray[np.float64]:
+def _strength(data: Any) -> NDArray[np.float64]:
     """(3,): power in W (sun: irradiance in W/m^2) times colour."""
     strength = np.array(data.color, float) * data.energy * 2.0 ** getattr(data, "exposure", 0.0)
     if getattr(data, "use_temperature", False):
         strength *= np.array(data.temperature_color)
-    tree = active_tree(data)
-    if tree is not None:
-        program = Program(context.core, context.scene, context.images, is_nowhere=True)
-        emission = light_emission(tree, Owner(owner, context.reporter, program))
-        if not emission.is_constant:
-            context.reporter.warn(f"{owner}: light that varies over a lamp is not supported, it is the same everywhere")
-        strength *= emission.typical()
     return strength
+
+
+def _emitting(value: Value) -> Any:
+    return Surface.of(value.program, emission=value).core_shader(value.program.core)
+
+
+def _share(
+    context: Context, data: Any, tree: bpy.types.NodeTree, name: str, object_to_world: NDArray[np.float64]
+) -> Value:
+    """What the lamp's nodes leave of its light, colour by colour."""
+    program = Program(context.core, context.scene, context.images)
+    owner = Owner(name, context.reporter, program, data, lamp_axes=object_to_world[:3, :3].T)
+    share = light_emission(tree, owner)
+    if not share.is_constant and context.depsgraph.scene_eval.pivot.integrator == "ANALYTIC":
+        context.reporter.warn(f"{name}: in the analytic integrator it shines alike everywhere. Fix: use Monte Carlo")
+    return share
 
 
 def _normalized(data: Any) -> bool:

@@ -39,6 +39,7 @@ class Slots:
     is_placed: bool  # what fills the object is as its first instance has it
     is_filled: bool = False
     shines: bool = False
+    is_holdout: bool = False
 
     def of_mesh(self) -> frozenset[str]:
         """The attributes that are of meshes and curves."""
@@ -66,6 +67,7 @@ class _Look:
     shader: Any  # the core's
     is_there: bool
     shines: bool
+    is_holdout: bool
     attributes: frozenset[str]
     aovs: tuple[tuple[int, Any], ...]  # each by its place and the core's shader that emits its value
 
@@ -87,6 +89,12 @@ class MaterialTable:
         materials = [self._override or material for material in slot_materials or [None]]
         looks = [self._look(material, interior.blender_object) for material in materials]
         volumes = [self._volume(material, interior) for material in materials]
+        holdouts = [look.is_holdout for look in looks]
+        if any(holdouts) and not all(holdouts):
+            self._context.reporter.warn(
+                f"object '{interior.blender_object.name}': a Holdout is supported where all slots have one, "
+                "some faces are black"
+            )
         return Slots(
             ids=tuple(self._exported(material, interior) for material in materials),
             attributes=frozenset().union(*(look.attributes for look in looks)),
@@ -94,6 +102,7 @@ class MaterialTable:
             is_placed=any(volume is not None and is_placed(volume.program) for volume in volumes),
             is_filled=any(volume is not None for volume in volumes),
             shines=any(look.shines for look in looks),
+            is_holdout=all(holdouts),
         )
 
     def filling(self, slot_materials: list[bpy.types.Material | None], interior: Interior) -> Filling | None:
@@ -154,7 +163,8 @@ class MaterialTable:
                 values = self._owner(material, user)  # with a program of its own: few rays ask it
                 aovs = self._aovs(material, values)
             attributes = frozenset(owner.program.attributes | values.program.attributes)
-            self._looks[key] = _Look(shader, is_there, not surface.emission.is_always(0), attributes, aovs)
+            shines = not surface.emission.is_always(0)
+            self._looks[key] = _Look(shader, is_there, shines, surface.is_holdout, attributes, aovs)
         return self._looks[key]
 
     def _aovs(self, material: bpy.types.Material | None, owner: Owner) -> tuple[tuple[int, Any], ...]:

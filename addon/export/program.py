@@ -128,12 +128,10 @@ def _as_wide(value: Value | float, a: Value, b: Value | float) -> Value:
 class Program:
     """A core's program being written, for one material or world."""
 
-    def __init__(self, core: ModuleType, scene: Any, images: ImageTable, is_nowhere: bool = False) -> None:
-        """is_nowhere: what varies over a place stands for its mean."""
+    def __init__(self, core: ModuleType, scene: Any, images: ImageTable) -> None:
         self.core: Any = core
         self.scene = scene
         self.images = images
-        self.is_nowhere = is_nowhere
         self.program = core.Program()
         self.attributes: set[str] = set()  # that the meshes of this material must have
         self.ops: dict[str, tuple[int, int, bool]] = core.ops()

@@ -208,7 +208,7 @@ class _Exporter:
             np.ascontiguousarray(object_to_world),
             group.materials,
             hidden_from=list(group.visible.hidden_from),
-            holdout=group.visible.is_holdout,
+            holdout=group.visible.is_holdout or group.is_holdout,
             light_group=group.light_group,
             links=group.links,
             link_sets=group.link_sets,

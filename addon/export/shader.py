@@ -123,6 +123,8 @@ def _sum(feed: Socket, owner: Owner, weight_a: Value, weight_b: Value, a: Socket
     scaled = [_shader(shader, owner).scaled(weight) for weight, shader in pairs if not weight.is_always(0)]
     if len(scaled) == 1:
         return scaled[0]
+    if any(surface.is_holdout for surface in scaled):
+        owner.warn(feed.node, "a Holdout is not supported beside other shaders, its part is black")
     total, exact = added(*scaled)
     if not exact:
         owner.warn(feed.node, "shaders of different normals or tangents cannot be mixed, all take the first one's")
@@ -216,6 +218,10 @@ def _transparent(feed: Socket, owner: Owner) -> Surface:
     return let_through(colour(feed.input("Color"), owner).at_least(0.0))
 
 
+def _holdout(_: Socket, owner: Owner) -> Surface:
+    return Surface.of(owner.program, is_holdout=True)
+
+
 def _emission(feed: Socket, owner: Owner) -> Surface:
     return Surface.of(owner.program, emission=emitted(feed.input("Color"), feed.input("Strength"), owner))
 
@@ -242,6 +248,7 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_GLASS": _glass,
     "BSDF_REFRACTION": _refraction,
     "BSDF_TRANSPARENT": _transparent,
+    "HOLDOUT": _holdout,
     "EMISSION": _emission,
     "BACKGROUND": _emission,
     "MIX_SHADER": _mix,

@@ -50,6 +50,7 @@ class Surface:
     lobes: tuple[Lobe, ...] = ()
     normal: Value | None = None  # of all lobes but highlights that have another, world space; None: the mesh's own
     normal_is_own: bool = False  # it is as displacement would turn the mesh's own
+    is_holdout: bool = False  # a camera sees a hole in its place
     ndf: Any = None  # pivot_core.TabulatedNdf of all its bases; None: each has its own alpha
     tangent: Value | None = None  # which way x of the ndf and of highlights lies, world space
 

@@ -49,6 +49,7 @@ __all__: list[str] = [
     "arch",
     "fog_lamp_pdf",
     "fog_lamp_samples",
+    "mean_lamp_share",
     "ops",
     "run_op",
     "version",
@@ -319,6 +320,75 @@ class Image:
     @property
     def memory_bytes(self) -> int: ...
 
+class SphereLight:
+    """
+    A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk turned to each point it lights instead, Blender's soft falloff.
+    """
+    def __init__(
+        self,
+        position: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        radius_m: typing.SupportsFloat | typing.SupportsIndex,
+        intensity: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        facing_disk: bool = False,
+    ) -> None: ...
+
+class SpotLight:
+    """
+    A sphere that shines along direction, with a smooth step from the cone's edge inwards over the share blend of its versine; with cosine, times the cosine from the axis.
+    """
+    def __init__(
+        self,
+        position: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        radius_m: typing.SupportsFloat | typing.SupportsIndex,
+        intensity: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        cos_half_angle: typing.SupportsFloat | typing.SupportsIndex,
+        blend: typing.SupportsFloat | typing.SupportsIndex,
+        facing_disk: bool = False,
+        cosine: bool = False,
+    ) -> None: ...
+
+class SunLight:
+    """
+    Light from a cap of directions around direction (towards the sun); irradiance of a surface that faces it.
+    """
+    def __init__(
+        self,
+        direction: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        half_angle_rad: typing.SupportsFloat | typing.SupportsIndex,
+        irradiance: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> None: ...
+
+class AreaLight:
+    """
+    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less than pi.
+    """
+    def __init__(
+        self,
+        center: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        half_u: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        half_v: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
+        radiance: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        ellipse: bool = False,
+        spread_rad: typing.SupportsFloat | typing.SupportsIndex = 3.1415927410125732,
+    ) -> None: ...
+
 class Program:
     """
     Ops over registers, run at each place of a surface.
@@ -487,75 +557,6 @@ class Lens:
         ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
 
-class SphereLight:
-    """
-    A sphere of radius_m; intensity in W/sr, Blender's power / (4 pi). facing_disk: a disk turned to each point it lights instead, Blender's soft falloff.
-    """
-    def __init__(
-        self,
-        position: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        radius_m: typing.SupportsFloat | typing.SupportsIndex,
-        intensity: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        facing_disk: bool = False,
-    ) -> None: ...
-
-class SpotLight:
-    """
-    A sphere that shines along direction, with a smooth step from the cone's edge inwards over the share blend of its versine; with cosine, times the cosine from the axis.
-    """
-    def __init__(
-        self,
-        position: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        radius_m: typing.SupportsFloat | typing.SupportsIndex,
-        intensity: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        direction: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        cos_half_angle: typing.SupportsFloat | typing.SupportsIndex,
-        blend: typing.SupportsFloat | typing.SupportsIndex,
-        facing_disk: bool = False,
-        cosine: bool = False,
-    ) -> None: ...
-
-class SunLight:
-    """
-    Light from a cap of directions around direction (towards the sun); irradiance of a surface that faces it.
-    """
-    def __init__(
-        self,
-        direction: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        half_angle_rad: typing.SupportsFloat | typing.SupportsIndex,
-        irradiance: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-    ) -> None: ...
-
-class AreaLight:
-    """
-    A parallelogram center +- half_u +- half_v, or the ellipse in it, shining towards cross(half_u, half_v) with the given radiance, as if behind slats where spread_rad is less than pi.
-    """
-    def __init__(
-        self,
-        center: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
-        half_u: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
-        half_v: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"],
-        radiance: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-        ellipse: bool = False,
-        spread_rad: typing.SupportsFloat | typing.SupportsIndex = 3.1415927410125732,
-    ) -> None: ...
-
 class Mesh:
     """
     A scene's mesh, for scenes to come.
@@ -638,9 +639,10 @@ class Scene:
             18446744073709551615,
             18446744073709551615,
         ],
+        shader: Shader | None = None,
     ) -> int:
         """
-        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone. light_group, links: as in add_instances.
+        hidden_from: what it does not light, of DIFFUSE, GLOSSY and TRANSMISSION, by surfaces, and VOLUME_SCATTER; SHADOW: nothing hides it. max_bounces: of a path that it lights; 0: what a camera sees alone. light_group, links: as in add_instances. shader: by Monte Carlo its emission is what is left of the light, from each place of the lamp.
         """
     def add_material(
         self,
@@ -1056,6 +1058,9 @@ def fog_lamp_samples(
 ) -> tuple:
     """
     fog_lamp_samples(light, g, position, direction, u): what u (n, 2) in [0, 1) sample of a lamp from a place in fog of Henyey and Greenstein's phase function that a ray along `direction` crosses: wi (n, 3) and their density per steradian (n,).
+def mean_lamp_share(shader: Shader, light: SphereLight | SpotLight | SunLight | AreaLight) -> float:
+    """
+    mean_lamp_share(shader, light): what a lamp's shader leaves of its light on the whole, in grey.
     """
 
 def ops() -> dict:

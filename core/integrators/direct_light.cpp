@@ -176,6 +176,25 @@ void shade_lights(const Scene& scene, const BouncePlan& plan, const VertexBatch&
     samples.radiance = samples.radiance * Vec3b(load(r), load(g), load(b));
 }
 
+/// Leaves of samples of lamps what these lamps' own shaders say.
+void shade_lamps(const Scene& scene, const BouncePlan& plan, const VertexBatch& vertices, const LightPicks& picks,
+                 LightSampleOf<Batch>& samples, Registers& registers) {
+    const Lanes brought = store(max_component(abs(samples.radiance)));
+    std::array<bool, batch_size> is_done{};
+    for (std::size_t i = 0; i < vertices.count(); ++i) {
+        const std::size_t place = picks.light[i];
+        const Shader* shader = brought[i] > 0.0f && !is_done[i] ? scene.lamp_shader(place) : nullptr;
+        if (!shader) continue;
+        const Vec3b share = lamp_share({*shader, scene.camera_facts()}, scene.light(place), vertices.point.position,
+                                       samples.wi, plan.bounce + 1, registers);
+        const BatchMask is_of_it = gather([&](std::size_t k) {
+                                       is_done[k] = is_done[k] || picks.light[k] == place;
+                                       return picks.light[k] == place ? 1.0f : 0.0f;
+                                   }) > Batch(0.5f);
+        samples.radiance = select(is_of_it, samples.radiance * share, samples.radiance);
+    }
+}
+
 /// Leaves of samples of the world what its rules say.
 void obey_world_rules(const Scene& scene, std::uint32_t bounce, const VertexBatch& vertices,
                       LightSampleOf<Batch>& samples) {
@@ -238,6 +257,7 @@ void for_each_sample(const Scene& scene, LightSampling strategy, const BouncePla
         LightSampleOf<Batch> samples = sample_lights(scene, strategy, plan.bounce, vertices, picks[k],
                                                      plan.dimensions.light_place(place), shared_lamps);
         if (scene.has_varying_lights()) shade_lights(scene, plan, vertices, picks[k], samples, memory);
+        if (scene.has_shaded_lamps()) shade_lamps(scene, plan, vertices, picks[k], samples, memory.registers);
         visit_with_rays(
             samples,
             scene.has_light_rules() ? obey_rules(scene, plan.bounce, vertices, instances, picks[k], samples) : none,

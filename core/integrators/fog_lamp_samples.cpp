@@ -67,7 +67,8 @@ void Fog::sample_candidates(std::span<const Candidate> candidates, std::uint32_t
     const LightSampling strategy = work_.settings.light_sampling;
     if (candidates.size() == 1 && weight == 1.0f && ray_.is_homogeneous() &&
         (strategy == LightSampling::joint || strategy == LightSampling::sptd) &&
-        !has_blockers_of_its_own(links_of(place_of(*candidates[0].lamp)))) {
+        !has_blockers_of_its_own(links_of(place_of(*candidates[0].lamp))) &&
+        !work_.scene.lamp_shader(place_of(*candidates[0].lamp))) {
         ray_.set_typical_mix(candidates[0].interval, mix_);
         if (mix_.lobes.size() == 1 && !is_sharp_along_ray(candidates[0])) {
             const std::uint32_t batches = (count + batch_size - 1) / batch_size;
@@ -149,12 +150,14 @@ void Fog::sample_place(const Candidate& candidate, float distance_m, float weigh
     const FogLampSampler lamp(*candidate.lamp, mix_, position, direction, work_.settings.light_sampling);
     const auto add = [&](const LightPoint& point, float pdf) {
         if (!is_usable(pdf)) return;
+        const Rgb left =
+            work_.scene.lamp_share(place_of(*candidate.lamp), position, point.wi, bounce + 1, work_.memory.registers);
         shadows_.push_back({.ray = {.origin = position,
                                     .direction = point.wi,
                                     .near_m = 0.0f,
                                     .far_m = point.distance_m * shadow_reach,
                                     .time = ray_.ray().time},
-                            .light = worth * mix_.scattered(direction, point.wi) * point.radiance / pdf,
+                            .light = worth * mix_.scattered(direction, point.wi) * point.radiance * left / pdf,
                             .bounce = bounce,
                             .sample = path.sample,
                             .dimension = dimension,

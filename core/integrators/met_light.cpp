@@ -38,7 +38,8 @@ Rgb lamps_met(const Work& work, Fog* fog, std::uint32_t bounce, std::span<const 
         Rgb light = place->radiance *
                     (bsdf_weight(lamp, work.settings.light_sampling, bounce, vertex, *place, expected, bsdf_pdf_omega) /
                      expected);
-        light *= lit_share(rules, vertex.surface, vertex.point.frame.to_local(wi));
+        light *= lit_share(rules, vertex.surface, vertex.point.frame.to_local(wi)) *
+                 work.scene.lamp_share(index, vertex.point.position, wi, bounce + 1, work.memory.registers);
         const Ray ray{.origin = vertex.point.ray_origin(wi),
                       .direction = wi,
                       .far_m = place->distance_m,

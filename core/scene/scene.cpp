@@ -69,10 +69,14 @@ void Scene::commit_lamps() {
     if (!are_lamps_stale_) return;
     lamps_.clear();
     lamp_groups_.clear();
+    lamp_shaders_.clear();
+    has_shaded_lamps_ = false;
     for (const NamedLight& named : added_lights_) {
         if (!named.light) continue;
         lamps_.push_back(*named.light);
         lamp_groups_.push_back(named.group);
+        lamp_shaders_.push_back(named.shader);
+        has_shaded_lamps_ = has_shaded_lamps_ || named.shader;
     }
     lamp_tree_ = LightTree(lamps_);
     are_lamps_stale_ = false;
@@ -137,6 +141,12 @@ std::optional<std::size_t> Scene::light_of(const RayHit& hit) const {
     if (own.light_of_triangle.empty() || own.light_of_triangle[hit.triangle] == TriangleLights::no_light)
         return std::nullopt;
     return lamps_.size() + own.first + own.light_of_triangle[hit.triangle];
+}
+
+Rgb Scene::lamp_share(std::size_t place, const Vec3f& from, const Vec3f& wi, std::uint32_t bounce,
+                      Registers& registers) const {
+    const Shader* shader = lamp_shader(place);
+    return shader ? pivot::lamp_share({*shader, camera_facts_}, lamps_[place], from, wi, bounce, registers) : Rgb(1.0f);
 }
 
 std::optional<SceneTriangle> Scene::varying_triangle(std::size_t place) const {

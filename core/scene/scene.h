@@ -14,6 +14,7 @@
 #include "core/scene/light_rules.h"
 #include "core/scene/media.h"
 #include "core/scene/triangle_lights.h"
+#include "core/shaders/lamp.h"
 #include "core/shaders/world.h"
 
 namespace pivot {
@@ -23,6 +24,7 @@ struct NamedLight {
     std::optional<Light> light;  ///< none: removed
     LightRules rules;
     std::uint32_t group = no_light_group;
+    std::shared_ptr<const Shader> shader;  ///< what its own nodes leave of it; null: all, everywhere
 };
 
 /// What scenes share that are made one after the other, as edits ask for, of meshes that are mostly the same.
@@ -48,8 +50,9 @@ class Scene {
     /// consecutive.
     std::uint32_t add_instances(const Instance& like, std::span<const Transform> world_from_objects,
                                 std::span<const ObjectFacts> facts);
+    /// shader: its emission is what is left of the light, from each place of the lamp.
     std::uint32_t add_light(const std::string& name, const Light& light, const LightRules& rules = {},
-                            std::uint32_t group = no_light_group);
+                            std::uint32_t group = no_light_group, std::shared_ptr<const Shader> shader = nullptr);
     void set_material(std::uint32_t id, Shader shader);
     void set_light(std::uint32_t id, const Light& light, const LightRules& rules = {});
     void set_instance_transform(std::uint32_t id, const Transform& world_from_object);
@@ -100,6 +103,14 @@ class Scene {
     /// The place of the light that a triangle is; nothing where it does not shine or is too small to be sampled.
     std::optional<std::size_t> light_of(const RayHit& hit) const;
     bool has_varying_lights() const { return has_varying_lights_; }
+    /// Whether some lamp has a shader; that of a light by its place, null where it has none.
+    bool has_shaded_lamps() const { return has_shaded_lamps_; }
+    const Shader* lamp_shader(std::size_t place) const {
+        return has_shaded_lamps_ && place < lamp_shaders_.size() ? lamp_shaders_[place].get() : nullptr;
+    }
+    /// What that leaves of the light along a ray.
+    Rgb lamp_share(std::size_t place, const Vec3f& from, const Vec3f& wi, std::uint32_t bounce,
+                   Registers& registers) const;
     /// Whether any light's rules say anything; elsewhere they need not be asked.
     bool has_light_rules() const { return has_light_rules_; }
     /// Whether a light, by its place, moves: a triangle of what does.
@@ -230,7 +241,9 @@ class Scene {
     std::vector<NamedLight> added_lights_;
     bool are_lamps_stale_ = false;
     std::vector<Light> lamps_, triangle_lights_;
-    std::vector<std::uint32_t> lamp_groups_;  ///< of each lamp
+    std::vector<std::uint32_t> lamp_groups_;                   ///< of each lamp
+    std::vector<std::shared_ptr<const Shader>> lamp_shaders_;  ///< likewise
+    bool has_shaded_lamps_ = false;
     std::uint32_t world_light_group_ = no_light_group;
     LightRules world_rules_;
     std::vector<std::pair<std::uint32_t, Shader>> world_aovs_;

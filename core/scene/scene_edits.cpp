@@ -162,9 +162,10 @@ std::uint32_t Scene::add_instances(const Instance& like, std::span<const Transfo
 }
 
 std::uint32_t Scene::add_light(const std::string& name, const Light& light, const LightRules& rules,
-                               std::uint32_t group) {
+                               std::uint32_t group, std::shared_ptr<const Shader> shader) {
     const auto edit = begin_edit();
-    added_lights_.push_back(NamedLight{name, light, rules, group});
+    if (shader) shader->program.make_image_levels();
+    added_lights_.push_back(NamedLight{name, light, rules, group, std::move(shader)});
     are_lamps_stale_ = true;
     return static_cast<std::uint32_t>(added_lights_.size() - 1);
 }

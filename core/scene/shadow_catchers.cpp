@@ -18,7 +18,7 @@ std::shared_ptr<Scene> Scene::only_shadow_catchers() const {
         if (instance && instance->is_shadow_catcher)
             scene->add_instances(*instance, {&instance->world_from_object, 1}, {&instance->facts, 1});
     for (const NamedLight& named : added_lights_)
-        if (named.light) scene->add_light(named.name, *named.light, named.rules, named.group);
+        if (named.light) scene->add_light(named.name, *named.light, named.rules, named.group, named.shader);
     scene->world_ = world_;
     scene->environment_ = environment_;
     scene->world_rules_ = world_rules_;

@@ -47,7 +47,7 @@ inline constexpr std::uint32_t ray_kinds = 31, passed_one = 32;
 
 /// What the lanes' places have of their own, and their rays.
 struct PlaceLanes {
-    std::array<const Mesh*, batch_size> meshes;  ///< null: the world, at a direction
+    std::array<const Mesh*, batch_size> meshes;  ///< null: the world, at a direction, or a lamp
     std::array<const ObjectFacts*, batch_size> objects;
     std::array<std::uint32_t, batch_size> triangles;
     HitTriangleOf<Batch> corners;
@@ -59,6 +59,7 @@ struct PlaceLanes {
     const CameraFacts* camera;
     Batch footprint_m;  ///< how wide the ray's part of a pixel is there
 
+    /// Or a lamp, which has no object either.
     bool is_world() const { return meshes[0] == nullptr; }
 };
 

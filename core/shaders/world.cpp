@@ -24,7 +24,7 @@ Vec3b run(const WorldView& world, const std::array<Vec3b, 3>& directions, const 
                            .corners = {},
                            .wo = -directions[0],
                            .front = Batch(1.0f),
-                           .ray_length_m = Batch(0.0f),
+                           .ray_length_m = std::numeric_limits<Batch>::max(),
                            .ray_kind = ray_kind,
                            .bounce = WordBatch(bounce),
                            .camera = &world.camera,

@@ -151,14 +151,11 @@ def test_negative_light_is_handed_on(cases: Any) -> None:
     close(cases["negative"]["world"], (-1, 0, -0.5))
 
 
-def test_light_that_varies_is_reported(cases: Any) -> None:
-    close(cases["varying"]["far"], (2, 2, 2))
-    close(cases["varying"]["seen"], (0, 0, 0))  # no camera ray is among those that a lamp lights
-    assert cases["varying"]["reports"] == [
-        "Pivot: light 'far', node 'Light Falloff': falloff other than quadratic and smoothing are not supported, "
-        "it falls with the square of distance",
-        "Pivot: light 'seen': light that varies over a lamp is not supported, it is the same everywhere",
-    ]
+def test_light_that_varies_has_a_shader(cases: Any) -> None:
+    """Its strength is then the mean of what that leaves, here taken for 3."""
+    close(cases["varying"]["far"], (3, 3, 3))
+    assert cases["varying"]["shaded"] == ["far", "seen"]
+    assert cases["varying"]["reports"] == []
 
 
 def test_world(cases: Any) -> None:

@@ -33,6 +33,7 @@ NODE = {
     "ShaderNodeOutputMaterial": Table(used="is_active_output target"),
     "ShaderNodeOutputWorld": Table(used="is_active_output target"),
     "ShaderNodeOutputLight": Table(used="is_active_output target"),
+    "ShaderNodeTexIES": Table(used="mode ies filepath"),
     "ShaderNodeUVMap": Table(used="uv_map from_instancer"),
     "ShaderNodeMath": Table(used="operation use_clamp"),
     "ShaderNodeVectorMath": Table(used="operation"),
@@ -160,6 +161,7 @@ INPUTS = {
     ),
     "ShaderNodeBsdfRefraction": Inputs("Color, Roughness, IOR, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfTransparent": Inputs("Color", no_meaning="Weight"),
+    "ShaderNodeHoldout": Inputs("", no_meaning="Weight"),
     "ShaderNodeEmission": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeBackground": Inputs("Color, Strength", no_meaning="Weight"),
     "ShaderNodeVolumeScatter": Inputs(
@@ -204,6 +206,7 @@ INPUTS = {
     "ShaderNodeSeparateXYZ": Inputs("Vector"),
     "ShaderNodeWavelength": Inputs("Wavelength"),
     "ShaderNodeLightFalloff": Inputs("Strength, Smooth"),
+    "ShaderNodeTexIES": Inputs("Vector, Strength"),
     "ShaderNodeClamp": Inputs("Value, Min, Max"),
     "ShaderNodeMapRange": Inputs(
         "Value, From Min, From Max, To Min, To Max, Steps, Vector, From_Min_FLOAT3, From_Max_FLOAT3, To_Min_FLOAT3,"

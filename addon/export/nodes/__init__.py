@@ -14,7 +14,7 @@ import numpy as np
 
 from ...report import Reporter
 from ..program import Program, UnknownOp, Value
-from . import colours, curves, geometry, images, maths, normals, object, ray, skies, textures
+from . import colours, curves, geometry, images, lamps, maths, normals, object, ray, skies, textures
 from .row import Row
 
 MID_GREY = 0.5
@@ -31,6 +31,7 @@ ROWS: dict[str, Row] = (
     | normals.ROWS
     | textures.ROWS
     | images.ROWS
+    | lamps.ROWS
 )
 
 
@@ -43,6 +44,7 @@ class Owner:
     program: Program
     data: bpy.types.ID | None = None  # the material, world or light
     neighbour: int = 0  # 1 or 2: what nodes give at the places beside; from 3 on, where bump mapping looks
+    lamp_axes: Any = None  # of a lamp's own space in world space, (3, 3); None of what is none
     displaced_normal: Value | None = None  # the surface's own, where bump mapping by the output has turned it
 
     def warn(self, node: bpy.types.Node, text: str) -> None:
@@ -308,6 +310,10 @@ class Node:
     @property
     def is_world(self) -> bool:
         return isinstance(self.owner.data, bpy.types.World)
+
+    @property
+    def lamp_axes(self) -> Any:
+        return self.owner.lamp_axes
 
     @property
     def material_index(self) -> int:

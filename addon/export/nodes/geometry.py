@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..program import Value
+from . import lamps
 from .row import Node, Row
 
 _TEXTURE_COORDINATES = {
@@ -29,9 +30,16 @@ def mesh_attribute(node: Node, name: str, missing: float = 1.0) -> Value:
     return node.op("attribute", settings=[node.program.attribute_id(name), missing])
 
 
+def uv(node: Node, name: str = "") -> Value:
+    """Of a UV map, or the active one."""
+    return mesh_attribute(node, f"uv:{name}")[:3] if node.lamp_axes is None else lamps.on_lamp(node, "UV")
+
+
 def generated(node: Node) -> Value:
-    """Generated coordinates; of the world, the direction."""
-    return node.op("position") if node.is_world else mesh_attribute(node, "generated:")[:3]
+    """Generated coordinates; of the world, the direction, of a lamp the place."""
+    return (
+        node.op("position") if node.is_world or node.lamp_axes is not None else mesh_attribute(node, "generated:")[:3]
+    )
 
 
 def _texture_coordinate(node: Node) -> Value:
@@ -39,9 +47,11 @@ def _texture_coordinate(node: Node) -> Value:
     if node.output == "Generated":
         return node.op("instance_generated") if from_instancer else generated(node)
     if node.output == "UV":
-        return node.op("instance_uv") if from_instancer else mesh_attribute(node, "uv:")[:3]
+        return node.op("instance_uv") if from_instancer else uv(node)
     if node.output == "Object" and target is not None:
         return node.op("position_in", settings=_rows_of_inverse(target))
+    if node.lamp_axes is not None and node.output in {"Normal", "Object"}:
+        return lamps.on_lamp(node, node.output)
     return node.op(_TEXTURE_COORDINATES[node.output])
 
 
@@ -54,7 +64,7 @@ def _rows_of_inverse(target: bpy.types.Object) -> list[float]:
 def _uv_map(node: Node) -> Value:
     if node.node.from_instancer:
         return node.op("instance_uv")
-    return mesh_attribute(node, f"uv:{node.node.uv_map}")[:3]
+    return uv(node, node.node.uv_map)
 
 
 def _geometry(node: Node) -> Value:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..program import Value
-from .geometry import mesh_attribute
+from .geometry import uv
 from .row import Node, Row
 from .texture_mapping import mapped
 
@@ -46,8 +46,6 @@ def _looked_up(
         picture = program.images.picture(blender_node.image, blender_node.image_user, node.warn)
     if picture is None:
         return _output(node, program.colour(_PINK))
-    if program.is_nowhere:
-        return _output(node, program.colour(picture.mean(blender_node.bl_idname == "ShaderNodeTexEnvironment")))
     wants_alpha = any(output.is_linked for output in blender_node.outputs if output.identifier == "Alpha")
     unassociate = picture.is_associated and wants_alpha
     settings = [_INTERPOLATIONS[blender_node.interpolation], extension, unassociate, closed_u]
@@ -80,8 +78,8 @@ def _output(node: Node, rgba: Value) -> Value:
 
 
 def _mapped_uv(node: Node) -> Value:
-    uv = node.vector("Vector") if node.is_linked("Vector") else mesh_attribute(node, "uv:")[:3]
-    return mapped(uv, node.node.texture_mapping)
+    at = node.vector("Vector") if node.is_linked("Vector") else uv(node)
+    return mapped(at, node.node.texture_mapping)
 
 
 def _mapped_direction(node: Node) -> Value:

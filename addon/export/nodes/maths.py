@@ -97,12 +97,6 @@ def _normal(node: Node) -> Value:
     return node.op("vector_dot_product", direction, node.op("vector_normalize", node.vector("Normal")))
 
 
-def _light_falloff(node: Node) -> Value:
-    if node.output != "Quadratic" or not node.number("Smooth").is_always(0):
-        node.warn("falloff other than quadratic and smoothing are not supported, it falls with the square of distance")
-    return node.number("Strength")
-
-
 ROWS: dict[str, Row] = {
     "MATH": _math,
     "VECT_MATH": _vector_math,
@@ -113,5 +107,4 @@ ROWS: dict[str, Row] = {
     "VECTOR_ROTATE": _vector_rotate,
     "MAPPING": _mapping,
     "NORMAL": _normal,
-    "LIGHT_FALLOFF": _light_falloff,
 }

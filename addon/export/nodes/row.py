@@ -57,6 +57,10 @@ class Node(Protocol):
         """Whether it is the world that is shaded, not a surface."""
 
     @property
+    def lamp_axes(self) -> Any:
+        """The axes of a lamp's own space in world space, (3, 3); None where no lamp is shaded."""
+
+    @property
     def material_index(self) -> int:
         """The material's pass index, 0 without one."""
 

@@ -28,8 +28,6 @@ def _sky_texture(node: Node) -> Value:
     blender_node, program = node.node, node.program
     if blender_node.sky_type in _INSTEAD:
         node.warn(_INSTEAD[blender_node.sky_type])
-    if program.is_nowhere:
-        return program.colour((0.0, 0.0, 0.0))
     vector = node.vector("Vector") if node.has("Vector") and node.is_linked("Vector") else node.op("position")
     direction = program.op("vector_normalize", mapped(vector, blender_node.texture_mapping))
     if blender_node.sky_type not in _SCATTERING:

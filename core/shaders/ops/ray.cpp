@@ -25,7 +25,7 @@ Batch unseen_m(const AnyPanorama&, const Place& place) {
 }
 
 Batch ray_length(const Place& place) {
-    if (place.lanes.is_world()) return std::numeric_limits<Batch>::max();
+    if (place.lanes.is_world()) return place.lanes.ray_length_m;
     const Batch whole = place.lanes.ray_length_m;
     const Batch unseen =
         std::visit([&](const auto& kind) { return unseen_m(kind, place); }, place.lanes.camera->projection);

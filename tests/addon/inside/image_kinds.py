@@ -5,6 +5,7 @@ They are functions that are given a node tree and a folder for their files, and 
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -358,6 +359,13 @@ def _missing_file(tree: Any, folder: Path) -> None:
     image = saved(folder, generated(4, 4), "PNG")
     image.filepath = str(folder / "nowhere.png")
     texture(tree, image)
+
+
+@case
+def _broken_file(tree: Any, folder: Path) -> None:
+    path = folder / "broken.exr"
+    path.write_bytes(struct.pack("<2I", 20000630, 2) + b"broken")
+    texture(tree, bpy.data.images.load(str(path)))
 
 
 @case

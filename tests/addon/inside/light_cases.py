@@ -122,7 +122,8 @@ def _varying() -> Any:
             node.inputs["Strength"].default_value = 2
         tree.links.new(node.outputs[output], tree.nodes["Emission"].inputs["Strength"])
     recording = record()
-    return {"reports": recording.reports} | {name: recording.light(name)["intensity"] for name in recording.lights}
+    of_lights = {name: recording.light(name)["intensity"] for name in recording.lights}
+    return {"reports": recording.reports, "shaded": sorted(recording.lamp_shaders)} | of_lights
 
 
 def _worlds() -> Any:

@@ -132,6 +132,7 @@ class Recording:
     world_medium: Medium | None = None
     lights: dict[str, Any] = field(default_factory=dict)
     rules: dict[str, Any] = field(default_factory=dict)  # of each light
+    lamp_shaders: dict[str, Any] = field(default_factory=dict)  # of lights whose nodes vary
     world: Any = None
     cameras: list[SimpleNamespace] = field(default_factory=list)
     settings: RenderSettings | None = None
@@ -239,8 +240,11 @@ class Scene:
         max_bounces: int = 1024,
         light_group: int = -1,
         links: Any = (),
+        shader: Any = None,
     ) -> int:
         self.recording.lights[name] = light
+        if shader is not None:
+            self.recording.lamp_shaders[name] = shader
         self.recording.rules[name] = (list(hidden_from), max_bounces)
         return len(self.recording.lights) - 1
 
@@ -345,6 +349,7 @@ def _in_place_of_the_core() -> Iterator[None]:
     core: Any = ModuleType("pivot_core")
     for name in ("version", "ops", "run_op", "Program", "Image", "TabulatedNdf"):
         setattr(core, name, getattr(real, name))
+    core.mean_lamp_share = lambda shader, light: 3.0
     for name in OPTICS:
         setattr(core, name, lambda *numbers, name=name: (name, *numbers))
     for part in (

@@ -93,6 +93,7 @@ def _holdout(clay: Any) -> None:
     bpy.context.scene.render.film_transparent = True
     _ball("hole", (-1, 0, 1), clay).is_holdout = True
     _in_collection(_ball("in a collection", (1, 0, 1), clay)).holdout = True
+    _ball("by its shader", (0, 2, 1.6), parts.shaded("hole", "ShaderNodeHoldout")[0])
     veil, tree = parts.material("veil")
     mix = tree.nodes.new("ShaderNodeMixShader")
     mix.inputs[0].default_value = 0.3
