@@ -18,7 +18,7 @@ constexpr float share_to_open = 0.005f, share_for_caps = 0.004f, share_for_rays 
 constexpr float usual_budget = 0.02f;
 /// What lights seen as one are off by, relative to their light, where their variance is as much as is allowed: of
 /// clusters, and of leaves, which are no finer.
-constexpr float error_of_cluster = 0.1f, most_error_of_cluster = 0.5f;
+constexpr float error_of_cluster = 0.08f, most_error_of_cluster = 0.4f;
 /// And what lights that glossy surfaces send on are off by in any case: a Gaussian of places and one of directions do
 /// not know that the one goes with the other.
 constexpr float error_of_glossy_cell = 0.07f;
