@@ -1,6 +1,7 @@
 """For `./run chart`: chart a scene's speed against accuracy in Blender as a module, with FLIP and a contact sheet.
 
-chart.py FILE.blend LADDER FOLDER   writes FOLDER/NAME.png, NAME.csv and NAME-sheet.png
+chart.py FILE.blend LADDERS FOLDER   writes FOLDER/NAME.png, NAME.csv and NAME-sheet.png of the first ladder, and of
+each further one, after a comma, NAME-LADDER.png and so on
 
 Pivot and Cycles are each held against their own converged picture. The charting itself is the addon's (addon/chart).
 """
@@ -109,7 +110,8 @@ def is_told(error: Exception) -> bool:
     return isinstance(error, RuntimeError) or type(error).__name__ == "RenderError"
 
 
-def main(blend: Path, ladder_name: str, folder: Path) -> None:
+def draw(blend: Path, ladder_name: str, name: str, folder: Path) -> None:
+    """name: of the files that are written."""
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     for addon in ("cycles", "pivot"):
         addon_utils.enable(addon)
@@ -119,7 +121,6 @@ def main(blend: Path, ladder_name: str, folder: Path) -> None:
     )
     core = importlib.import_module("pivot.core").load()
     chosen = ladder.LADDERS[ladder_name]
-    print("skipped: Mitsuba, which .blend files are not translated for (tests/benchmark/monte_carlo.py compares it)")
     rows = measure.measure(blend, chosen, folder, print)
     pictures = measure.Pictures(folder / measure.scene_key(blend, chosen.width_px))
     references = {
@@ -128,7 +129,7 @@ def main(blend: Path, ladder_name: str, folder: Path) -> None:
     }
     srgb = pixels.srgb_from_linear
     flips = [flip(references[row.rung.renderer].mean, np.load(row.file)["image"], srgb) for row in rows]
-    out = {kind: folder / f"{blend.stem}{kind}" for kind in (".png", ".csv", "-sheet.png")}
+    out = {kind: folder / f"{name}{kind}" for kind in (".png", ".csv", "-sheet.png")}
     plot.draw_chart(core, rows, out[".png"], *plot.titles(blend.stem, chosen))
     noises = {renderer: reference.noise for renderer, reference in references.items()}
     write_csv(out[".csv"], rows, flips, noises)
@@ -145,13 +146,19 @@ def main(blend: Path, ladder_name: str, folder: Path) -> None:
         print(f"Wrote {path}")
 
 
+def main(blend: Path, ladders: Sequence[str], folder: Path) -> None:
+    print("skipped: Mitsuba, which .blend files are not translated for (tests/benchmark/monte_carlo.py compares it)")
+    for k, ladder_name in enumerate(ladders):
+        draw(blend, ladder_name, blend.stem if k == 0 else f"{blend.stem}-{ladder_name.lower()}", folder)
+
+
 if __name__ == "__main__":
-    blend, ladder_name, folder = sys.argv[1:]
+    blend, ladders, folder = sys.argv[1:]
     Path(folder).mkdir(parents=True, exist_ok=True)
     quiet_blender(Path(folder) / "blender.log")
     status = 0
     try:
-        main(Path(blend), ladder_name, Path(folder))
+        main(Path(blend), ladders.split(","), Path(folder))
     except Exception as error:
         if not is_told(error):
             traceback.print_exc()

@@ -21,6 +21,11 @@ class Rung:
     samples: int
     settings: dict[str, Any] = field(default_factory=dict)  # Pivot's: of scene.pivot
 
+    @property
+    def virtual_lights(self) -> int | None:
+        """How many, where the line is of their number."""
+        return self.settings.get("virtual_lights")
+
 
 @dataclass(frozen=True)
 class Ladder:
@@ -44,6 +49,11 @@ REFERENCE_SETTINGS = {"integrator": "MONTE_CARLO", "light_sampling": "JOINT"}
 _MONTE_CARLO = {"JOINT": "Monte Carlo, joint", "SPTD": "Monte Carlo, SPTD", "MIS": "Monte Carlo, MIS"}
 _ANALYTIC = {"AUTO": "Analytic", "EXACT": "Analytic, exact", "SPTD": "Analytic, SPTD", "LTC": "Analytic, LTC"}
 _BUDGETS = (10.0, 5.0, 2.0, 1.0, 0.5)
+_VIRTUAL_LIGHTS = {
+    "AUTO": "Virtual lights, by number",
+    "WIDENED": "by the formulas of 2024",
+    "ANISOTROPIC": "by the formulas of 2015",
+}
 
 
 def pivot_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], budget_samples: int) -> Iterator[Rung]:
@@ -67,7 +77,7 @@ def cycles_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
 
 
 def bounce_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], lights: tuple[int, ...]) -> Iterator[Rung]:
-    """Light that bounced once: by paths, and by so many virtual lights."""
+    """Light that bounced once: by paths, and by so many virtual lights, whose formulas there are three of."""
     once = {"max_bounces": 1}
     for samples in monte_carlo:
         settings = {"integrator": "MONTE_CARLO", "light_sampling": "JOINT"} | once
@@ -75,9 +85,10 @@ def bounce_rungs(monte_carlo: tuple[int, ...], analytic: tuple[int, ...], lights
     virtual = {"integrator": "ANALYTIC", "indirect": "VSGL"} | once
     for samples in analytic:
         yield Rung("PIVOT", "Virtual lights", f"{samples}", samples, virtual)
-    for count in lights:
-        settings = virtual | {"virtual_lights": count}
-        yield Rung("PIVOT", "Virtual lights, by number", f"{count}", max(analytic), settings)
+    for name, method in _VIRTUAL_LIGHTS.items():
+        for count in lights:
+            settings = virtual | {"virtual_lights": count, "virtual_light_method": name}
+            yield Rung("PIVOT", method, f"{count}", max(analytic), settings)
     for samples in monte_carlo:
         yield Rung("CYCLES", "Cycles", f"{samples}", samples, once)
 
@@ -92,7 +103,7 @@ def denoised_rungs(samples: tuple[int, ...]) -> Iterator[Rung]:
 FULL = Ladder((*pivot_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), 256), *cycles_rungs((1, 4, 16, 64, 256))), 240, 2048)
 PANEL = Ladder(tuple(pivot_rungs((1, 4, 16, 64), (1, 4, 16), 64)), 160, 1024)
 SMALL = Ladder((*pivot_rungs((1, 8), (1,), 4), *cycles_rungs((1, 8))), 32, 128)
-_BOUNCED = bounce_rungs((1, 4, 16, 64, 256), (1, 4, 16, 64), (256, 1024, 16384))
-BOUNCE = Ladder((*_BOUNCED, *denoised_rungs((4, 16, 64))), 240, 4096, max_bounces=1)
+_BOUNCED = bounce_rungs((1, 4, 16, 64), (1, 4, 16), (64, 256, 1024, 4096, 16384))
+BOUNCE = Ladder((*_BOUNCED, *denoised_rungs((4, 16, 64))), 160, 1024, max_bounces=1)
 SMALL_BOUNCE = Ladder((*bounce_rungs((1, 8), (1,), (64,)), *denoised_rungs((8,))), 32, 128, max_bounces=1)
 LADDERS = {"FULL": FULL, "PANEL": PANEL, "SMALL": SMALL, "BOUNCE": BOUNCE, "SMALL_BOUNCE": SMALL_BOUNCE}

@@ -1,4 +1,5 @@
-"""The chart: CPU seconds across, relMSE up, a line a method, the Pareto front beneath them."""
+"""The chart: CPU seconds across, relMSE up, a line a method, the Pareto front beneath them. Below it another, across
+which is the number of virtual lights, where lines are of that."""
 
 from __future__ import annotations
 
@@ -23,6 +24,8 @@ COLORS: dict[str, Color] = {
     "Analytic, exact": (0.9, 0.4, 0.5),
     "Virtual lights": (0.75, 0.1, 0.1),
     "Virtual lights, by number": (0.95, 0.45, 0.1),
+    "by the formulas of 2024": (0.55, 0.3, 0.65),
+    "by the formulas of 2015": (0.75, 0.6, 0.85),
     "Analytic, SPTD": (0.55, 0.3, 0.65),
     "Analytic, LTC": (0.75, 0.6, 0.85),
     "Cycles": (0.15, 0.5, 0.25),
@@ -79,52 +82,70 @@ def titles(scene: str, ladder: Ladder) -> tuple[str, str]:
 
 def draw_chart(core: ModuleType, rows: Sequence[Row], path: Path, title: str, note: str) -> None:
     """note: below the title: what was measured."""
-    canvas = Canvas(core, WIDTH, HEIGHT)
+    of_number = [row for row in rows if row.rung.virtual_lights is not None]
+    canvas = Canvas(core, WIDTH, HEIGHT * (2 if of_number else 1))
+    bottom = canvas.height - HEIGHT
+    canvas.text(LEFT, canvas.height - 36, title, 24, INK)
+    canvas.text(LEFT, canvas.height - 60, note, 14, GREY)
+    y = _error_axis(rows, bottom)
     x = Axis([row.cpu_s for row in rows], LEFT, WIDTH - RIGHT)
-    y = Axis([row.rel_mse for row in rows], BOTTOM, HEIGHT - TOP)
-    canvas.text(LEFT, HEIGHT - 36, title, 24, INK)
-    canvas.text(LEFT, HEIGHT - 60, note, 14, GREY)
-    _draw_axes(canvas, x, y)
-
-    def place(row: Row) -> tuple[float, float]:
-        return x(row.cpu_s), y(row.rel_mse)
-
+    _draw_axes(canvas, x, y, bottom, "CPU seconds")
     front = pareto_front(rows)
-    canvas.line([place(row) for row in front], 13, FRONT)
-    lines: dict[str, list[Row]] = {}
-    for row in rows:
-        lines.setdefault(row.rung.method, []).append(row)
-    ends = [place(line[-1]) for line in lines.values()]
-    heights = spread([end[1] for end in ends], _LABEL_PX, BOTTOM, HEIGHT - TOP)
+    canvas.line([(x(row.cpu_s), y(row.rel_mse)) for row in front], 13, FRONT)
+    _draw_lines(canvas, [(row, x(row.cpu_s), y(row.rel_mse)) for row in rows], bottom)
+    labelled: list[tuple[float, float]] = []
+    for row in front:
+        place = x(row.cpu_s), y(row.rel_mse)
+        if all(math.dist(place, other) > _POINT_PX for other in labelled):
+            canvas.text(place[0] - 7, place[1] - 17, row.rung.label, 13, INK, "RIGHT")
+            labelled.append(place)
+    canvas.line([(WIDTH - RIGHT + 24, bottom + 30), (WIDTH - RIGHT + 54, bottom + 30)], 13, FRONT)
+    canvas.text(WIDTH - RIGHT + 68, bottom + 25, "Pareto front", 14, INK)
+    if of_number:
+        _draw_numbers(canvas, of_number)
+    write_png(path, canvas.render())
+
+
+def _draw_numbers(canvas: Canvas, rows: Sequence[Row]) -> None:
+    """relMSE against the number of virtual lights, at the canvas' bottom."""
+    numbers = [row.rung.virtual_lights or 1 for row in rows]
+    x, y = Axis(numbers, LEFT, WIDTH - RIGHT), _error_axis(rows, 0)
+    _draw_axes(canvas, x, y, 0, "Virtual lights")
+    _draw_lines(canvas, [(row, x(n), y(row.rel_mse)) for row, n in zip(rows, numbers, strict=True)], 0)
+
+
+def _error_axis(rows: Sequence[Row], bottom: int) -> Axis:
+    return Axis([row.rel_mse for row in rows], bottom + BOTTOM, bottom + HEIGHT - TOP)
+
+
+def _draw_lines(canvas: Canvas, points: Sequence[tuple[Row, float, float]], bottom: int) -> None:
+    """points: each row's, in pixels."""
+    lines: dict[str, list[tuple[float, float]]] = {}
+    for row, *place in points:
+        lines.setdefault(row.rung.method, []).append((place[0], place[1]))
+    ends = [line[-1] for line in lines.values()]
+    heights = spread([end[1] for end in ends], _LABEL_PX, bottom + BOTTOM, bottom + HEIGHT - TOP)
     for method, end, height in zip(lines, ends, heights, strict=True):
         color = COLORS.get(method, GREY)
         canvas.line([end, (WIDTH - RIGHT + 8, height), (WIDTH - RIGHT + 18, height)], 1, PALE)
         canvas.text(WIDTH - RIGHT + 24, height - 5, method, 17, color)
     for method, line in lines.items():
         color = COLORS.get(method, GREY)
-        canvas.line([place(row) for row in line], 2.5, color)
-        for row in line:
-            canvas.dot(*place(row), 4.5, color)
-    labelled: list[tuple[float, float]] = []
-    for row in front:
-        if all(math.dist(place(row), other) > _POINT_PX for other in labelled):
-            canvas.text(place(row)[0] - 7, place(row)[1] - 17, row.rung.label, 13, INK, "RIGHT")
-            labelled.append(place(row))
-    canvas.line([(WIDTH - RIGHT + 24, 30), (WIDTH - RIGHT + 54, 30)], 13, FRONT)
-    canvas.text(WIDTH - RIGHT + 68, 25, "Pareto front", 14, INK)
-    write_png(path, canvas.render())
+        canvas.line(line, 2.5, color)
+        for place in line:
+            canvas.dot(*place, 4.5, color)
 
 
-def _draw_axes(canvas: Canvas, x: Axis, y: Axis) -> None:
-    right, top = WIDTH - RIGHT, HEIGHT - TOP
+def _draw_axes(canvas: Canvas, x: Axis, y: Axis, bottom: int, across: str) -> None:
+    right, low, top = WIDTH - RIGHT, bottom + BOTTOM, bottom + HEIGHT - TOP
     for exponent in x.decades():
         at = x(10.0**exponent)
-        canvas.line([(at, BOTTOM), (at, top)], 1, PALE)
-        canvas.text(at, BOTTOM - 22, decade(exponent), 15, INK, "CENTER")
+        canvas.line([(at, low), (at, top)], 1, PALE)
+        canvas.text(at, low - 22, decade(exponent), 15, INK, "CENTER")
     for exponent in y.decades():
         at = y(10.0**exponent)
         canvas.line([(LEFT, at), (right, at)], 1, PALE)
         canvas.text(LEFT - 10, at - 5, decade(exponent), 15, INK, "RIGHT")
-    canvas.line([(LEFT, top), (LEFT, BOTTOM), (right, BOTTOM)], 1.5, INK)
-    canvas.text((LEFT + right) / 2, 18, "CPU seconds", 17, INK, "CENTER")
+    canvas.line([(LEFT, top), (LEFT, low), (right, low)], 1.5, INK)
+    canvas.text((LEFT + right) / 2, bottom + 18, across, 17, INK, "CENTER")
     canvas.text(14, top + 8, "relMSE", 17, INK)

@@ -18,7 +18,7 @@ constexpr float share_to_open = 0.005f, share_for_caps = 0.004f, share_for_rays 
 constexpr float usual_budget = 0.02f;
 /// What lights seen as one are off by, relative to their light, where their variance is as much as is allowed: of
 /// clusters, and of leaves, which are no finer.
-constexpr float error_of_cluster = 0.1f, most_error_of_cluster = 0.5f;
+constexpr float error_of_cluster = 0.08f, most_error_of_cluster = 0.4f;
 /// And what lights that glossy surfaces send on are off by in any case: a Gaussian of places and one of directions do
 /// not know that the one goes with the other.
 constexpr float error_of_glossy_cell = 0.07f;
@@ -28,6 +28,8 @@ constexpr float error_of_cosine = 0.02f;
 /// theirs, so often at most: as a Gaussian it shines from where it is not, and not enough from where it touches.
 constexpr float near_variance = 0.1f;
 constexpr int most_quarterings = 3;
+/// What of lights' light is taken to be further than a deviation from their mean.
+constexpr float part_of_few = 0.1f;
 /// And for a first look at how much light there is.
 constexpr float rough_variance = 0.3f;
 constexpr std::uint32_t rays_per_light = 2;
@@ -229,7 +231,9 @@ class LightCut {
             const Batch spread(1.0f / std::sqrt(std::max(light.sharpness, 1.0f)));
             emitted = Batch(1.0f / pi<float>) * clamp01(view.facing + deviation + spread);
         }
-        Batch reflected = Batch(1.0f / pi<float>) * diffuse_weight_ * clamp01(view.wi.z + deviation);
+        // Few of the lights together may be before the surface while most are behind it.
+        const Batch few = light.child_count > 0 ? Batch(part_of_few) * clamp01(view.wi.z + view.reach) : zero;
+        Batch reflected = Batch(1.0f / pi<float>) * diffuse_weight_ * max(clamp01(view.wi.z + deviation), few);
         if (receiver_) {
             const Vec3b& wo = batch_.lobe.wo_local;
             const Batch apart2 = length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));

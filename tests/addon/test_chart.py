@@ -34,7 +34,7 @@ def test_more_samples_cost_more_and_err_less(case: Any) -> None:
 
 def test_light_that_bounced_is_charted(case: Any) -> None:
     methods = {row["method"] for row in case["bounced"]}
-    virtual = {"Virtual lights", "Virtual lights, by number"}
+    virtual = {"Virtual lights", "Virtual lights, by number", "by the formulas of 2024", "by the formulas of 2015"}
     assert methods - {"Monte Carlo, denoised"} == {"Monte Carlo, joint", "Cycles"} | virtual
     assert ("Monte Carlo, denoised" in methods) == case["has_denoiser"]
     assert all(row["bounces"] == 1 and row["rel_mse"] < 10 for row in case["bounced"])

@@ -134,9 +134,10 @@ def sky() -> pivot_core.Scene:
     return scene
 
 
-# The error's constants were fitted on the first half; the second tells what they are worth.
-FITTED: tuple[Callable[[], pivot_core.Scene], ...] = (corridor, metals, emissive, touching)
-HELD_OUT: tuple[Callable[[], pivot_core.Scene], ...] = (sunlit, polished, stairs, sky)
+SCENES: tuple[Callable[[], pivot_core.Scene], ...] = (
+    *(corridor, metals, emissive, touching),
+    *(sunlit, polished, stairs, sky),
+)
 
 
 def read(scene: pivot_core.Scene, *passes: str, **settings: object) -> list[Floats]:
@@ -165,9 +166,8 @@ def check(make: Callable[[], pivot_core.Scene], samples: int) -> str:
 
 def main() -> None:
     own.SIZE = SIZE
-    for half, scenes in (("fitted", FITTED), ("held out", HELD_OUT)):
-        for make in scenes:
-            print(f"{half:9} {make.__name__:9} {check(make, 1024)}", flush=True)
+    for make in SCENES:
+        print(f"{make.__name__:9} {check(make, 1024)}", flush=True)
 
 
 if __name__ == "__main__":

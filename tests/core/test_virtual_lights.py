@@ -150,6 +150,42 @@ def test_light_that_moves_a_little_changes_a_little() -> None:
     assert change.mean() < 0.003
 
 
+def light_count(scene: pivot_core.Scene, asked: int) -> int:
+    session = pivot_core.Session(scene, pivot_core.RenderSettings(**VSGL, samples=1, virtual_lights=asked))
+    session.start()
+    assert session.wait(60)
+    return int(session.virtual_lights[0])
+
+
+@pytest.mark.parametrize("asked", [256, 2048])
+def test_there_are_about_as_many_lights_as_asked_for(asked: int) -> None:
+    """Half to twice as many where walls are lit; no more where a little metal on a huge ground gives few photons."""
+    sparse = pivot_core.Scene()
+    grey = sparse.add_material("grey", pivot_core.Material(diffuse=(0.7, 0.7, 0.7)))
+    gold = sparse.add_material(
+        "gold", pivot_core.Material(conductor_f0=(0.9, 0.7, 0.3), conductor_f90=WHITE, alpha=0.1)
+    )
+    sparse.add_instances("floor", add_plane(sparse, 20.0), place(), [grey])
+    sparse.add_instances("ball", add_sphere(sparse), place(z=0.2, scale=0.2), [gold])
+    sparse.add_light("sun", pivot_core.SunLight((0.0, -0.6, 0.8), 0.02, (3.0, 3.0, 3.0)))
+    set_camera(sparse, (0.0, -1.2, 0.8), (0.0, 0.0, 0.1), (4, 4), 0.4)
+    assert 0.4 * asked < light_count(box_room(), asked) < 2.2 * asked
+    assert 0 < light_count(sparse, asked) < 2.2 * asked
+
+
+def test_light_comes_from_the_little_of_a_wall_that_is_before_a_surface() -> None:
+    """A long wall, whose bright end is behind the pillar's front that is seen."""
+    scene = pivot_core.Scene()
+    grey = scene.add_material("grey", pivot_core.Material(diffuse=(0.7, 0.7, 0.7)))
+    scene.add_instances("wall", add_box(scene, (1.0, -1.0, 0.0), (1.1, 9.0, 2.2)), place(), [grey])
+    scene.add_instances("pillar", add_box(scene, (-1.0, 2.0, 0.0), (-0.4, 2.4, 2.2)), place(), [grey])
+    scene.add_light("lamp", pivot_core.SphereLight((0.5, 7.5, 1.9), 0.05, WHITE))
+    scene.add_light("lamp", pivot_core.SphereLight((-0.7, 3.2, 1.8), 0.05, WHITE))
+    set_camera(scene, (-0.7, -0.6, 1.1), (-0.7, 2.0, 1.1), (12, 8), 0.1)
+    lights, reference = indirect(scene, samples=4), by_monte_carlo(scene)
+    assert lights.mean() == pytest.approx(reference.mean(), rel=0.1)
+
+
 def test_an_object_carries_its_light_along() -> None:
     """All that is lit moves together, so that all cells do."""
     pictures = []
