@@ -186,7 +186,7 @@ std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& poin
     const float pdf = pdf_omega(surface, wi_local);
     if (!(pdf > 0.0f)) return std::nullopt;
     const Vec3f wi = point.frame.to_world(wi_local);
-    const Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
+    const Rgb power = photon.power_w * eval_sampled(surface, wi_local) / pdf;
     const bool is_open = point.faces(wi) || (surface.transmits() && point.faces(-wi));
     if (!carries_light(power) || !is_open) return std::nullopt;
     return Photon{{point.ray_origin(wi), wi}, power, photon.sampler, photon.max_bounces};
