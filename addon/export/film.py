@@ -1,4 +1,4 @@
-"""Thin films on dielectrics: as thin as light's waves are long, which colours what is mirrored."""
+"""Thin films on dielectrics and metals: as thin as light's waves are long, which colours what is mirrored."""
 
 from __future__ import annotations
 
@@ -31,6 +31,10 @@ class Film:
         """What a Dielectric is told of it."""
         return {"film_ior": self.ior, "film_nm": self.thickness_nm}
 
+    def on_metal(self, metal: dict[str, Value]) -> tuple[tuple[str, Value], ...]:
+        """The curve of a "metal_film" highlight. metal: what physical_metal() or metal_of_f82() gives."""
+        return tuple((metal | {"film_ior": self.ior, "film_nm": self.thickness_nm}).items())
+
     def highlight(
         self, feed: Socket, owner: Owner, alpha: Value, rotation: Value, ior: Value, tint: Value, weight: Value,
         multiscatter: bool,
@@ -50,3 +54,20 @@ class Film:
         about = program.op("normal") if turned is None else turned
         glossiness = (alpha, ior, tint.widened(), program.number(float(multiscatter)))
         return program.op("thin_film_layer", about, *glossiness, self.ior, self.thickness_nm)
+
+
+def physical_metal(n: Value, k: Value) -> dict[str, Value]:
+    """A metal beneath a film, by its index of refraction n + i k."""
+    program = n.program
+    return {"n": n, "k": k, "f82": program.colour((0, 0, 0)), "has_f82": program.number(0.0)}
+
+
+def metal_of_f82(f0: Value, edge_tint: Value) -> dict[str, Value]:
+    """A metal of F82's curve beneath a film: the index that tells its phases. [Cycles 5.2 closure/bsdf_microfacet.h]"""
+    r = f0.widened().at_most(0.999)
+    f82 = (r + (1.0 - r) * (6 / 7) ** 5) * edge_tint.widened()
+    densest, thinnest = (1.0 + r.root()) / (1.0 - r.root()), (1.0 - r) / (1.0 + r)
+    n = densest + f82 * (thinnest - densest)
+    more, less = n + 1.0, n - 1.0
+    k = ((r * more * more - less * less).at_least(0.0) / (1.0 - r)).root()
+    return {"n": n, "k": k, "f82": f82, "has_f82": f0.program.number(1.0)}

@@ -1,4 +1,4 @@
-"""Principled Hair as the core's lobe of a hair: core/bsdf/lobes/hair.h."""
+"""Principled Hair and Hair BSDF as the core's lobes of a hair: core/bsdf/lobes/hair.h and strand.h."""
 
 from __future__ import annotations
 
@@ -30,11 +30,25 @@ def principled_hair(feed: Socket, owner: Owner) -> Surface:
         ("variance", _variance(clamped)),
         ("primary_variance", _variance((primary * clamped).at_least(0.001).at_most(1.0))),
         ("scale", _scale(around.at_least(0.001).at_most(1.0))),
-        ("tilt_rad", number(feed.input("Offset"), owner)),
+        ("tilt_rad", 0.0 - number(feed.input("Offset"), owner)),
         ("ior", number(feed.input("IOR"), owner).at_least(1.0)),
     )
     lobe = Lobe("hair", (("color", program.colour((1, 1, 1))),), shape)
     return Surface.of(program, lobes=(lobe,), tangent=program.op("strand_tangent"))
+
+
+def hair(feed: Socket, owner: Owner) -> Surface:
+    """Hair BSDF, along the hair or along what is linked to its Tangent. [Cycles 4.5 svm/closure.h]"""
+    program, along = owner.program, feed.input("Tangent")
+    shape = (
+        ("transmits", program.number(float(feed.node.component == "Transmission"))),
+        ("roughness_along", number(feed.input("RoughnessU"), owner).clamped()),
+        ("roughness_around", number(feed.input("RoughnessV"), owner).clamped()),
+        ("tilt_rad", 0.0 - number(feed.input("Offset"), owner)),
+    )
+    lobe = Lobe("strand", (("color", colour(feed.input("Color"), owner).at_least(0.0).widened()),), shape)
+    tangent = colour(along, owner) if is_linked(along) else program.op("strand_tangent")
+    return Surface.of(program, lobes=(lobe,), tangent=tangent)
 
 
 def _random(program: Program) -> Value:

@@ -11,13 +11,13 @@ from .program import Program, Value
 
 @dataclass(frozen=True)
 class Highlight:
-    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, thin_film.h or ashikhmin_shirley.h,
-    which say what they are.
+    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, thin_film.h, metal_film.h or
+    ashikhmin_shirley.h, which say what they are.
 
     curve: what its microfacets reflect, of the lobe that `kind` names. normal: world space; None: the surface's.
     """
 
-    kind: str  # "anisotropic", "conductor", "thin_film" or "ashikhmin_shirley"
+    kind: str  # "anisotropic", "conductor", "thin_film", "metal_film" or "ashikhmin_shirley"
     curve: tuple[tuple[str, Value], ...]
     color: Value
     alpha_x: Value
@@ -42,7 +42,7 @@ class Highlight:
 
     def _curve_of_base(self) -> dict[str, Value]:
         values, part = dict(self.curve), share(self.color)
-        if self.kind == "conductor":
+        if self.kind in {"conductor", "metal_film"}:
             less, more, k2 = values["n"] - 1.0, values["n"] + 1.0, values["k"] * values["k"]
             f0 = (less * less + k2) / (more * more + k2)
             return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}

@@ -7,10 +7,10 @@ from typing import Any
 
 import bpy
 
-from . import cloth, subsurface
+from . import cloth, subsurface, thin_wall
 from .dielectric import Dielectric
-from .film import Film
-from .highlight import f82
+from .film import Film, metal_of_f82
+from .highlight import Highlight, f82, sides
 from .layers import beneath_dielectric, brushed, coated, rotation
 from .lobe import Lobe
 from .nodes import Owner, Socket, colour, is_constant, normal, number, tangent
@@ -27,12 +27,11 @@ def principled(feed: Socket, owner: Owner) -> Surface:
     f82_tinted = not metallic.is_always(0) and feed.find_input("Specular IOR Level") is not None
     edge_tint = tint.at_most(1.0) if f82_tinted else owner.program.colour((1, 1, 1))
     glass = number(feed.input("Transmission Weight", "Transmission"), owner).clamped()
-    opaque = (1.0 - metallic) * (1.0 - glass)
-    film = Film.of(feed, owner)
-    if film is not None and bpy.app.version >= (5, 0) and not metallic.is_always(0):
-        owner.warn(feed.node, "a thin film on metal is not supported, it is left out there")
+    through, opaque = (1.0 - metallic) * glass, (1.0 - metallic) * (1.0 - glass)
+    film, is_thin = Film.of(feed, owner), thin_wall.is_there(feed)
+    on_metal = film is not None and bpy.app.version >= (5, 0) and not metallic.is_always(0)
     is_bare = film is None and not ior.is_always(1)
-    curve = f82(f0, edge_tint, metallic) | {
+    curve = f82(f0, edge_tint, owner.program.number(0.0) if on_metal else metallic) | {
         "dielectric_weight": opaque if is_bare else owner.program.number(0.0),
         "dielectric_ior": ior,
         "dielectric_tint": tint,
@@ -43,13 +42,19 @@ def principled(feed: Socket, owner: Owner) -> Surface:
         alpha=ggx_alpha(feed, owner),
         **curve,
         weight=metallic + opaque,
-        dielectrics=() if glass.is_always(0) else _transmission(feed, owner, f0, (1.0 - metallic) * glass, film),
+        dielectrics=() if is_thin or glass.is_always(0) else _transmission(feed, owner, f0, through, film),
         **({} if film is None else _filmed(feed, owner, film, ior, tint, opaque)),
         multiscatter=is_multiscatter(feed, owner),
         emission=emitted(feed.input("Emission Color", "Emission"), feed.input("Emission Strength"), owner),
         normal=normal(feed, owner),
     )
-    whole = coated(brushed(whole, feed, owner), feed, owner)
+    whole = brushed(whole, feed, owner)
+    if on_metal:
+        whole = _metal_beneath(whole, feed, owner, film, metal_of_f82(f0, edge_tint), metallic)
+    if is_thin and not glass.is_always(0):
+        pane = thin_wall.glass(feed, owner, f0, through, film)
+        whole = added(replace(whole, opacity=1.0 - through), pane)[0]
+    whole = coated(whole, feed, owner)
     if feed.find_input("Sheen Weight") is not None:
         whole = cloth.under_sheen(whole, feed, owner)
     opacity = number(feed.input("Alpha"), owner).clamped()
@@ -68,6 +73,19 @@ def _filmed(feed: Socket, owner: Owner, film: Film, ior: Value, tint: Value, opa
         "highlights": (highlight,),
         "tangent": tangent(feed, owner) if highlight.is_anisotropic else None,
     }
+
+
+def _metal_beneath(
+    whole: Surface, feed: Socket, owner: Owner, film: Film, metal: dict[str, Value], weight: Value
+) -> Surface:
+    """Principled with its metal beneath a thin film."""
+    alpha, turns = ggx_alpha(feed, owner), rotation(feed, owner)
+    is_even = is_constant(feed.input("Anisotropic"), 0.0)
+    alphas = (alpha, alpha) if is_even else sides(alpha, number(feed.input("Anisotropic"), owner))
+    curve, multiscatter = film.on_metal(metal), is_multiscatter(feed, owner)
+    highlight = Highlight("metal_film", curve, weight.widened(), *alphas, turns, multiscatter)
+    along = whole.tangent if is_even else tangent(feed, owner)
+    return replace(whole, highlights=(*whole.highlights, highlight), tangent=along)
 
 
 def _principled_diffuse(
@@ -92,14 +110,20 @@ def _principled_diffuse(
         left = film.beneath(feed, owner, alpha, ior, tint, multiscatter)
     elif (is_rough or not beneath.is_always(0)) and not ior.is_always(1):
         left, _ = beneath_dielectric(owner.program, normal(feed, owner), alpha, ior, tint, multiscatter)
-    lobes = []
+    lobes, parts, smooth = [], {}, base * (opaque * above)
+    under = 1.0 if film is None else left  # else the base's own highlight takes its share by itself
     if not beneath.is_always(0):
-        weight = base.at_most(1.0) * beneath * opaque * left
-        lobes.append(subsurface.of_principled(feed, owner, base, weight, beneath, ior))
-    if not is_rough:  # the base's own highlight takes its share by itself
-        return {"diffuse": base * (opaque * above) * (1.0 if film is None else left), "lobes": tuple(lobes)}
+        weight = base.at_most(1.0) * beneath * opaque
+        if thin_wall.is_there(feed):
+            reflected, translucent = thin_wall.leaf(feed, owner, weight)
+            parts = {"diffuse": reflected * under, "translucent": translucent * left}
+            smooth = smooth + reflected
+        else:
+            lobes.append(subsurface.of_principled(feed, owner, base, weight * left, beneath, ior))
+    if not is_rough:
+        return parts | {"diffuse": smooth * under, "lobes": tuple(lobes)}
     rough = cloth.rough_diffuse(base * (opaque * above) * left, base, number(target, owner).clamped())
-    return {"lobes": (*lobes, rough)}
+    return parts | {"lobes": (*lobes, rough)}
 
 
 def _transmission(feed: Socket, owner: Owner, base: Value, weight: Value, film: Film | None) -> tuple[Dielectric, ...]:

@@ -13,10 +13,11 @@ import bpy
 from . import cloth, subsurface
 from .census import INPUTS
 from .dielectric import Dielectric
-from .film import Film
-from .hair import principled_hair
+from .film import Film, metal_of_f82, physical_metal
+from .hair import hair, principled_hair
 from .highlight import Highlight, f82, sides, sides_of_glossy
 from .layers import rotation
+from .lobe import Lobe
 from .nodes import (
     MID_GREY,
     Owner,
@@ -157,10 +158,15 @@ def _glossy(feed: Socket, owner: Owner) -> Surface:
 def _metallic(feed: Socket, owner: Owner) -> Surface:
     alpha, anisotropy = ggx_alpha(feed, owner), feed.input("Anisotropy")
     alphas = None if is_constant(anisotropy, 0.0) else sides(alpha, number(anisotropy, owner))
+    film = Film.of(feed, owner)
     if feed.node.fresnel_type == "PHYSICAL_CONDUCTOR":
-        n, k = (colour(feed.input(name), owner).at_least(0.0) for name in ("IOR", "Extinction"))
+        n, k = (colour(feed.input(name), owner).at_least(0.0).widened() for name in ("IOR", "Extinction"))
+        if film is not None:
+            return _metal(feed, owner, dict(film.on_metal(physical_metal(n, k))), alpha, alphas, "metal_film")
         return _metal(feed, owner, {"n": n, "k": k}, alpha, alphas, "conductor")
     base, edge_tint = (colour(feed.input(name), owner).clamped() for name in ("Base Color", "Edge Tint"))
+    if film is not None:
+        return _metal(feed, owner, dict(film.on_metal(metal_of_f82(base, edge_tint))), alpha, alphas, "metal_film")
     return _metal(feed, owner, f82(base, edge_tint, owner.program.number(1.0)), alpha, alphas)
 
 
@@ -191,6 +197,16 @@ def _metal(
     )
     along = None if alphas is None else tangent(feed, owner)
     return Surface.of(program, highlights=(highlight,), tangent=along, normal=turned)
+
+
+def _toon(feed: Socket, owner: Owner) -> Surface:
+    tint = colour(feed.input("Color"), owner).at_least(0.0).widened()
+    shape = (
+        ("size", number(feed.input("Size"), owner).clamped()),
+        ("smooth", number(feed.input("Smooth"), owner).clamped()),
+        ("glossy", owner.program.number(float(feed.node.component == "GLOSSY"))),
+    )
+    return Surface.of(owner.program, lobes=(Lobe("toon", (("color", tint),), shape),), normal=normal(feed, owner))
 
 
 def _glass(feed: Socket, owner: Owner) -> Surface:
@@ -240,6 +256,8 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_SHEEN": cloth.sheen,
     "BSDF_VELVET": cloth.velvet,
+    "BSDF_TOON": _toon,
+    "BSDF_HAIR": hair,
     "BSDF_HAIR_PRINCIPLED": principled_hair,
     "SUBSURFACE_SCATTERING": subsurface.node,
     "BSDF_GLOSSY": _glossy,

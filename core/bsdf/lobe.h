@@ -13,11 +13,15 @@
 #include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
 #include "core/bsdf/lobes/hair.h"
+#include "core/bsdf/lobes/metal_film.h"
 #include "core/bsdf/lobes/oren_nayar.h"
 #include "core/bsdf/lobes/sheen.h"
+#include "core/bsdf/lobes/strand.h"
 #include "core/bsdf/lobes/subsurface.h"
 #include "core/bsdf/lobes/tabulated.h"
 #include "core/bsdf/lobes/thin_film.h"
+#include "core/bsdf/lobes/thin_glass.h"
+#include "core/bsdf/lobes/toon.h"
 #include "core/bsdf/lobes/translucent.h"
 #include "core/bsdf/lobes/velvet.h"
 #include "core/bsdf/material.h"
@@ -27,7 +31,7 @@ namespace pivot {
 template <class T>
 using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
                              Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>,
-                             ThinFilm<T>, AshikhminShirley<T>>;
+                             ThinFilm<T>, Strand<T>, AshikhminShirley<T>, Toon<T>, MetalFilm<T>, ThinGlass<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>
@@ -46,7 +50,8 @@ concept DiffuseLobe = requires {
 /// highlight_probability(), below which u_lobe draws what is no diffuse light; and eval_diffuse(wo, wi), the part of
 /// eval() that is; its Parameters turn_over(mask), which makes them those of the surface's back, and
 /// turn_normals(local_of, mask), which takes normals of theirs out of world space; and is_diffuse, see
-/// DiffuseLobe; and is_of_strands, of surfaces that are thinner than pixels.
+/// DiffuseLobe; and is_of_strands, of surfaces that are thinner than pixels; and eval_sampled(wo, wi), which stands for
+/// eval() where a sample of the BSDF goes on, of lobes to which lamps are not like other light.
 template <class L, class T>
 concept Lobe = requires(const L& lobe, const typename L::Parameters& parameters, const Vec3<T>& w, T u_lobe,
                         const Vec2<T>& u) {

@@ -77,6 +77,19 @@ Vec3<T> eval(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
     return value + eval_diffuse_lobes(surface, wi_local);
 }
 
+/// What eval() is to light that is found by samples of the BSDF: the same but of few kinds of lobes, see Lobe.
+template <class T>
+Vec3<T> eval_sampled(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {
+    Vec3<T> value = eval(surface, wi_local);
+    for_each_lobe(surface, [&]<class L>(const L& lobe, const LobeOf<T>&, const Mask<T>& is_kind) {
+        if constexpr (requires { lobe.eval_sampled(surface.wo_local, wi_local); }) {
+            const Vec3<T> more = lobe.eval_sampled(surface.wo_local, wi_local) - lobe.eval(surface.wo_local, wi_local);
+            value += select(is_kind, more, Vec3<T>(T(0)));
+        }
+    });
+    return value;
+}
+
 /// Density of sample(), all lobes.
 template <class T>
 T pdf_omega(const SurfaceOf<T>& surface, const Vec3<T>& wi_local) {

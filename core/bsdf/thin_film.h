@@ -35,10 +35,10 @@ WavesOf<T> reflected_waves(T cos_i, T ior) {
             !(cos2_t > T(0))};
 }
 
-/// The mean over wavelengths of cos(2 pi path / wavelength), by what the eye's colours weigh them: of white light, and
-/// in proportion to white. [Belcour17 (13), supplement]
-template <class T>
-Vec3<T> mean_interference(T path_nm) {
+/// The mean over wavelengths of wave(2 pi path / wavelength), wave cos or sin, by what the eye's colours weigh them: of
+/// white light, and in proportion to white. [Belcour17 (13), supplement]
+template <class T, class Wave>
+Vec3<T> mean_of_waves(T path_nm, const Wave& wave) {
     struct Gaussian {
         float height, at, variance;
     };
@@ -46,13 +46,13 @@ Vec3<T> mean_interference(T path_nm) {
     constexpr Gaussian x{5.4856e-13f, 1.6810e6f, 4.3278e9f}, y{4.4201e-13f, 1.7953e6f, 9.3046e9f},
         z{5.2481e-13f, 2.2084e6f, 6.6121e9f};
     const T phase = path_nm * T(2.0f * pi<float> * 1e-9f), phase2 = sqr(phase);
-    const auto wave = [&](float height, float at, float variance) {
-        return T(height) * cos(T(at) * phase) * exp(T(-variance) * phase2);
+    const auto about = [&](float height, float at, float variance) {
+        return T(height) * wave(T(at) * phase) * exp(T(-variance) * phase2);
     };
     const auto of = [&](const Gaussian& g) {
-        return wave(norm * g.height * std::sqrt(2.0f * pi<float> * g.variance), g.at, g.variance);
+        return about(norm * g.height * std::sqrt(2.0f * pi<float> * g.variance), g.at, g.variance);
     };
-    const Vec3<T> xyz(of(x) + wave(norm * 1.64408e-8f, 2.2399e6f, 4.5282e9f), of(y), of(z));
+    const Vec3<T> xyz(of(x) + about(norm * 1.64408e-8f, 2.2399e6f, 4.5282e9f), of(y), of(z));
     // The curves are of equal energy, so white is scaled to that of Rec. 709, D65.
     const T wx = xyz.x * T(0.95047f), wy = xyz.y, wz = xyz.z * T(1.08883f);
     return {T(3.2404542f) * wx - T(1.5371385f) * wy - T(0.4985314f) * wz,
@@ -84,7 +84,8 @@ Vec3<T> thin_film_reflectance(T cos_theta, T ior, const ThinFilmOf<T>& film) {
     Vec3<T> reflected(once);
     const T path_nm = T(2) * film_ior * film.thickness_nm * above.cos_t;
     for (std::size_t m = 0; m < further.size(); ++m)
-        reflected += further[m] * detail::mean_interference(T(static_cast<float>(m + 1)) * path_nm);
+        reflected +=
+            further[m] * detail::mean_of_waves(T(static_cast<float>(m + 1)) * path_nm, [](T w) { return cos(w); });
     reflected = min(max(reflected, Vec3<T>(T(0))), white);
     return select(above.is_total || below.is_total, white, reflected);
 }

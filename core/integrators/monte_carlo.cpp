@@ -42,7 +42,7 @@ Scattered scatter(const BouncePlan& plan, const PathBatch& batch, const BatchMas
     const Vec3b wi_local = sample(vertices.surface, u_lobe.x, vertices.sampler.point(plan.dimensions.direction()));
     const Vec3b wi = vertices.point.frame.to_world(wi_local);
     const Batch zero(0.0f), pdf = pdf_omega(vertices.surface, wi_local);
-    const Vec3b throughput = batch.lanes.throughput * eval(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
+    const Vec3b throughput = batch.lanes.throughput * eval_sampled(vertices.surface, wi_local) / max(pdf, tiny<Batch>);
     const WordBatch ray_kind =
         select(samples_highlight(vertices.surface, u_lobe.x), WordBatch(glossy_ray), WordBatch(diffuse_ray)) |
         select(wi_local.z < zero, WordBatch(transmission_ray), WordBatch(0u));

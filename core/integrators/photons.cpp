@@ -196,7 +196,7 @@ std::optional<Photon> scattered(const Surface& surface, const SurfacePoint& poin
     const float pdf = pdf_omega(surface, wi_local);
     if (!(pdf > 0.0f)) return std::nullopt;
     const Vec3f wi = point.frame.to_world(wi_local);
-    Rgb power = photon.power_w * eval(surface, wi_local) / pdf;
+    Rgb power = photon.power_w * eval_sampled(surface, wi_local) / pdf;
     if (bounce == 0) power *= lit_share(photon.rules, surface, wi_local);
     const bool is_open = point.faces(wi) || (surface.transmits() && point.faces(-wi));
     if (!carries_light(power) || !is_open) return std::nullopt;

@@ -41,6 +41,8 @@ def random_lobe(kind: str, seed: int) -> tuple[str, dict[str, object]]:
         values[name] = tuple(drawn) if count > 1 else float(drawn[0])
     if "normal" in values:
         values["normal"] = direction(random.uniform(0, 0.2), random.uniform(0, 2 * np.pi))
+    if kind == "thin_film":  # Principled's, whose microfacets are GGX's
+        values["beckmann"] = 0.0
     if "radius_m" in values:
         values["radius_m"] = (0.0, 0.0, 0.0)
     if kind in pivot_core.LOBES_WITH_NDF:
@@ -167,9 +169,10 @@ def energies(name: str, lit_from: str, mode: str) -> Array:
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize(("name", "lit_from"), PICTURES)
+@pytest.mark.parametrize(("name", "lit_from"), [case for case in PICTURES if not case[0].startswith("strand")])
 def test_light_samplings_have_one_energy(name: str, lit_from: str, mode: str) -> None:
-    """The generic product of any lobe with any light, above the surface and through it."""
+    """The generic product of any lobe with any light, above the surface and through it. Not of strands: as in Cycles
+    samples of the BSDF find light where lamps give them none."""
     ours, alone = energies(name, lit_from, mode), energies(name, lit_from, "BSDF")
     if abs(ours.mean() / alone.mean() - 1) < 1e-4:
         return

@@ -27,6 +27,8 @@ NODE = {
     "ShaderNodeBsdfRefraction": Table(used="distribution"),
     "ShaderNodeBsdfMetallic": Table(used="distribution fresnel_type"),
     "ShaderNodeBsdfSheen": Table(used="distribution"),
+    "ShaderNodeBsdfToon": Table(used="component"),
+    "ShaderNodeBsdfHair": Table(used="component"),
     "ShaderNodeBsdfHairPrincipled": Table(used="model parametrization"),
     "ShaderNodeVolumeScatter": Table(used="phase"),
     "ShaderNodeVolumeCoefficients": Table(used="phase"),
@@ -123,8 +125,6 @@ def _listed(names: str) -> list[str]:
     return [name.strip() for name in names.split(",") if name.strip()]
 
 
-_THIN_FILM = (("Thin Film Thickness@5.0", 0.0),)
-
 INPUTS = {
     "ShaderNodeBsdfPrincipled": Inputs(
         used="Base Color, Metallic, Roughness, IOR, Specular, Specular IOR Level, Specular Tint, Emission,"
@@ -132,12 +132,14 @@ INPUTS = {
         "Anisotropic, Anisotropic Rotation, Tangent, Coat Weight, Coat Roughness, Coat IOR, Coat Tint, Coat Normal,"
         "Clearcoat, Clearcoat Roughness, Clearcoat Normal, Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint,"
         "Sheen Roughness, Subsurface Weight, Subsurface, Subsurface Radius, Subsurface Color, Subsurface Scale,"
-        "Subsurface IOR, Subsurface Anisotropy, Thin Film Thickness, Thin Film IOR",
-        no_meaning="Thin Wall@5.2,Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Weight",
+        "Subsurface IOR, Subsurface Anisotropy, Thin Film Thickness, Thin Film IOR, Thin Wall@5.2",
+        no_meaning="Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfVelvet": Inputs("Color, Sigma, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfToon": Inputs("Color, Size, Smooth, Normal", no_meaning="Weight"),
+    "ShaderNodeBsdfHair": Inputs("Color, Offset, RoughnessU, RoughnessV, Tangent", no_meaning="Weight"),
     # What is Huang's alone is reported with the model.
     "ShaderNodeBsdfHairPrincipled": Inputs(
         "Color, Melanin, Melanin Redness, Tint, Absorption Coefficient, Roughness, Radial Roughness, Coat, IOR, Offset,"
@@ -151,9 +153,9 @@ INPUTS = {
     "ShaderNodeBsdfGlossy": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfAnisotropic": Inputs("Color, Roughness, Normal, Anisotropy, Rotation, Tangent", no_meaning="Weight"),
     "ShaderNodeBsdfMetallic": Inputs(
-        "Base Color, Edge Tint, Roughness, Normal, IOR, Extinction, Anisotropy, Rotation, Tangent",
-        left_out=_THIN_FILM,
-        no_meaning="Weight, Thin Film IOR@5.0",
+        "Base Color, Edge Tint, Roughness, Normal, IOR, Extinction, Anisotropy, Rotation, Tangent,"
+        "Thin Film Thickness@5.0, Thin Film IOR@5.0",
+        no_meaning="Weight",
     ),
     "ShaderNodeBsdfGlass": Inputs(
         "Color, Roughness, IOR, Normal, Thin Film Thickness@5.0, Thin Film IOR@5.0",

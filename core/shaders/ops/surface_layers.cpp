@@ -60,8 +60,31 @@ Batch thin_film_layer(const Place& place, const Vec3b& normal, Batch alpha, Batc
     return max(one - max_component(mirrored * base.fresnel.dielectric_f90) * single, Batch(0.0f));
 }
 
+/// What a wall of glass, too thin to bend light, mirrors and lets through, with all that its two sides mirror to each
+/// other; tint: what of light that crosses it straight is left. [Cycles 5.2 closure/bsdf_microfacet.h,
+/// bsdf_thin_glass_fresnel]
+std::tuple<Vec3b, Vec3b> thin_wall(const Place& place, const Vec3b& normal, Batch ior, const Vec3b& f0_tint,
+                                   const Vec3b& tint, Batch film_ior, Batch film_nm) {
+    const Batch one(1.0f);
+    const Vec3b white(one);
+    const Batch cos_i = cosine(place, normal), eta = select(abs(ior - one) < Batch(1e-4f), Batch(1.0001f), ior);
+    const ThinFilmOf<Batch> film{film_ior, film_nm};
+    const Vec3b f0 = min(f0_from_ior(eta) * f0_tint, white);
+    const Vec3b bare = f0 + (white - f0) * fresnel_dielectric_weight(cos_i, eta);
+    const Vec3b once = select(film.is_there(), thin_film_reflectance(cos_i, eta, film, f0_tint), bare);
+    const Batch cos_t = sqrt(max(one - (one - cos_i * cos_i) / (eta * eta), Batch(0.0f)));
+    const auto crossed = [&](Batch straight) {
+        return select(cos_t > Batch(1e-4f), exp(log(max(straight, Batch(1e-6f))) / max(cos_t, Batch(1e-4f))),
+                      Batch(0.0f));
+    };
+    const Vec3b left(crossed(tint.x), crossed(tint.y), crossed(tint.z)), again = once * left;
+    const Vec3b through = left * (white - once) * (white - once) / max(white - again * again, Vec3b(Batch(1e-6f)));
+    return {once + through * again, through};
+}
+
 constexpr std::array ops{
     op<sheen_albedo>("sheen_albedo"),
+    op<thin_wall>("thin_wall"),
     op<dielectric_layer>("dielectric_layer"),
     op<thin_film_layer>("thin_film_layer"),
 };

@@ -1,4 +1,4 @@
-"""Balls and a floor seen along it, of each kind of rough or fibrous surface, rendered by Cycles and by Pivot."""
+"""Balls and a floor seen along it, of each kind of rough, fibrous or drawn surface, rendered by Cycles and by Pivot."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "clay": ("ShaderNodeBsdfDiffuse", {"Color": RED, "Roughness": 0.4}),
     "chalk": ("ShaderNodeBsdfDiffuse", {"Color": RED, "Roughness": 1.0}),
     "default": ("ShaderNodeBsdfPrincipled", {}),
+    "toon": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.6, "Smooth": 0.3}),
+    "toon_shine": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.3, "Smooth": 0.1, "component": "GLOSSY"}),
 }
 if OLD:
     CASES |= {
@@ -52,12 +54,14 @@ def main(folder: Path) -> Any:
 
 
 def _scene(name: str, kind: str, inputs: dict[str, Any]) -> None:
-    distribution = inputs.pop("distribution", "GGX" if kind.endswith("Principled") else None)
+    settings = {key: inputs.pop(key) for key in ("distribution", "component") if key in inputs}
+    if kind.endswith("Principled"):
+        settings["distribution"] = "GGX"
 
     def make() -> Any:
         material, node = parts.shaded(name, kind, **inputs)
-        if distribution:
-            node.distribution = distribution
+        for key, value in settings.items():
+            setattr(node, key, value)
         return material
 
     dress(make)
