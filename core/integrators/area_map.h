@@ -199,10 +199,11 @@ struct AreaMap {
         T warp_center = x_span.nearest(x_center + to_middle * shear * sqr(x_scale) * per_sum);
         T warp_scale = x_scale * sqrt(sides2 * per_sum);
         if (any(light.ellipse)) {
-            // As wide as the strip of that width towards the middle.
-            const T share = EllipseStrip<T>::share(warp_center), step = min(warp_scale, T(1));
-            const T beside = warp_center + select(warp_center > T(0), -step, step);
-            const T width = abs(EllipseStrip<T>::share(beside) - share) * warp_scale * inverse(step);
+            // As wide as the strip of that width towards the middle. Not moved: near its ends few bits tell strips
+            // apart.
+            const T share = EllipseStrip<T>::share(x_center), step = min(x_scale, T(1));
+            const T beside = x_center + select(x_center > T(0), -step, step);
+            const T width = abs(EllipseStrip<T>::share(beside) - share) * x_scale * inverse(step);
             warp_center = select(light.ellipse, share, warp_center);
             warp_scale = select(light.ellipse, width, warp_scale);
             span.low = select(light.ellipse, EllipseStrip<T>::share(span.low), span.low);

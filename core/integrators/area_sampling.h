@@ -10,13 +10,13 @@
 // lobes are at grazing views. u.x and u.y move the sample monotonously along x and y: stratification lasts.
 //
 // Tried, by the variance of samples (tests/benchmark/area_light_samples.py), the smaller the better: 3 x 3 cells of one
-// value at their centre, which do not end at the horizon, 2 to 50; 3 x 3 nodes 2, 4 x 4 1, 5 x 5 0.6, 6 columns of 5
-// (these) 0.5 for 1.4 times the time of 4 x 4, 8 x 8 0.25 for 2.5 times; nodes about where the lobe's ridge leaves the
-// light, as they are, 0.8, and a third in the worst cases at grazing views; nodes even in z / sqrt(1 + z^2), Student's
-// own, 1, but 8 in the worst cases, all at grazing views; fitting the stretched half vector in the place of its slopes
-// 1; fitting where the mirrored view meets the light's plane, without the step to the least slope, 2 to 5 beside the
-// highlight. By relMSE x CPU of three lights over glossy spheres: eight patches cut in eight again, chosen by ggx_cap,
-// 4 times that of 3 x 3 cells, for u jumps between patches.
+// value at their centre, which do not end at the horizon, 2 to 50; 3 x 3 nodes 2, 4 x 4 (these) 1, 5 x 5 0.6, 6 columns
+// of 5 (these at grazing views) 0.5 for 1.4 times the time of 4 x 4, 8 x 8 0.25 for 2.5 times; nodes about where the
+// lobe's ridge leaves the light, as they are, 0.8, and a third in the worst cases at grazing views; nodes even in z /
+// sqrt(1 + z^2), Student's own, 1, but 8 in the worst cases, all at grazing views; fitting the stretched half vector in
+// the place of its slopes 1; fitting where the mirrored view meets the light's plane, without the step to the least
+// slope, 2 to 5 beside the highlight. By relMSE x CPU of three lights over glossy spheres: eight patches cut in eight
+// again, chosen by ggx_cap, 4 times that of 3 x 3 cells, for u jumps between patches.
 #pragma once
 
 #include "core/bsdf/surface.h"
@@ -78,8 +78,15 @@ Mask<T> is_even_enough(const AreaView<T>& light) {
     return light.triangle && sqr(reach_m) < length_squared(light.center);
 }
 
-/// Joint samples of an area light that shines on the lit point, dot(center, normal) < 0.
+/// Whether a view is so grazing that a highlight's grid needs more nodes: there slopes bend over the light.
 template <class T>
+Mask<T> needs_finer_grid(const AreaLobes<T>& lobes) {
+    return lobes.wo_local.z < T(0.2f) && lobes.has_highlight();
+}
+
+/// Joint samples of an area light that shines on the lit point, dot(center, normal) < 0. A highlight's grid has so many
+/// nodes along x and along y.
+template <class T, std::size_t columns = 4, std::size_t rows = 4>
 class AreaSampler {
    public:
     AreaSampler(const AreaLobes<T>& lobes, const AreaView<T>& light) : light_(light) {
@@ -148,7 +155,7 @@ class AreaSampler {
     }
 
    private:
-    using HighlightGrid = detail::AreaGrid<T, 6, 5>;
+    using HighlightGrid = detail::AreaGrid<T, columns, rows>;
 
     /// Fits a highlight's grid; returns about what the lobe reflects. turned: whether it has axes of its own.
     template <bool turned>
@@ -210,5 +217,9 @@ class AreaSampler {
     T before_diffuse_ = T(0), diffuse_weight_, all_;
     bool uses_diffuse_;
 };
+
+/// Where needs_finer_grid() says so.
+template <class T>
+using FinerAreaSampler = AreaSampler<T, 6, 5>;
 
 }  // namespace pivot

@@ -159,7 +159,14 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     Vec2b place = even_place(view, u);
     Batch pdf_xy = inverse(relative_area(view));
     if (const BatchMask even = is_even_enough(view) || is_alone || transmits; any(!even)) {
-        const auto joint = AreaSampler<Batch>(lobes, view).sample(u);
+        const BatchMask finer = needs_finer_grid(lobes);
+        AreaSample<Batch> joint{place, pdf_xy};
+        if (any(!finer)) joint = AreaSampler<Batch>(lobes, view).sample(u);
+        if (any(finer)) {
+            const AreaSample<Batch> fine = FinerAreaSampler<Batch>(lobes, view).sample(u);
+            joint.place = {select(finer, fine.place.x, joint.place.x), select(finer, fine.place.y, joint.place.y)};
+            joint.pdf = select(finer, fine.pdf, joint.pdf);
+        }
         place = {select(even, place.x, joint.place.x), select(even, place.y, joint.place.y)};
         pdf_xy = select(even, pdf_xy, max(joint.pdf, tiny<Batch>));
     }

@@ -25,8 +25,13 @@ LightSampler::LightSampler(const Light& light, const SurfacePoint& point, const 
         const AreaLobes<float> lobes(surface);
         if (!(dot(view.center, view.normal) < 0.0f))
             diffuse_technique_ = Technique::none;
-        else if (!is_even_enough(view))
-            area_.emplace(lobes, view);
+        else if (!is_even_enough(view)) {
+            area_view_ = view;
+            if (needs_finer_grid(lobes))
+                area_.emplace<FinerAreaSampler<float>>(lobes, view);
+            else
+                area_.emplace<AreaSampler<float>>(lobes, view);
+        }
         shares_with_bsdf_ = needs_bsdf_samples(view, lobes);
     }
     if (!cap_) return;
@@ -113,13 +118,13 @@ float LightSampler::pdf_in_cap(Technique technique, const Vec3f& wi_local) const
 
 std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (diffuse_technique_ == Technique::none) return std::nullopt;
-    if (area_) {
-        const auto [at, pdf] = area_->sample(u);
-        const SeenPlace<float> seen = see(area_->light(), at);
+    if (area_view_) {
+        const auto [at, pdf] = with_area([&](const auto& area) { return area.sample(u); });
+        const SeenPlace<float> seen = see(*area_view_, at);
         if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
         const auto& light = std::get<AreaLight>(light_);
         const float falloff = light.inverse_tan_spread > 0.0f
-                                  ? spread_falloff(light.inverse_tan_spread, -dot(seen.wi, area_->light().normal))
+                                  ? spread_falloff(light.inverse_tan_spread, -dot(seen.wi, area_view_->normal))
                                   : 1.0f;
         return LightPoint{point_.frame.to_world(seen.wi), seen.distance_m, light.radiance * falloff,
                           pdf / seen.omega_per_xy};
@@ -139,10 +144,11 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
 }
 
 float LightSampler::pdf_omega(const LightPoint& place) const {
-    if (area_) {
+    if (area_view_) {
         const auto& light = std::get<AreaLight>(light_);
         const Vec2f at = area_coordinates(light, point_.position + place.distance_m * place.wi);
-        return area_->pdf(at) / see(area_->light(), at).omega_per_xy;
+        const float pdf = with_area([&](const auto& area) { return area.pdf(at); });
+        return pdf / see(*area_view_, at).omega_per_xy;
     }
     if (!cap_) return diffuse_technique_ == Technique::none ? 0.0f : place.pdf_omega;
     const Vec3f wi_local = point_.frame.to_local(place.wi);

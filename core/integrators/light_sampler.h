@@ -29,6 +29,8 @@
 // near they cost what they brought.
 #pragma once
 
+#include <variant>
+
 #include "core/bsdf/surface.h"
 #include "core/distributions/elliptic_cone.h"
 #include "core/distributions/projected_cap.h"
@@ -62,6 +64,13 @@ class LightSampler {
     float pdf_omega(const LightPoint& place) const;
 
    private:
+    /// Of the sampler of an area light that there is.
+    template <class Visit>
+    auto with_area(const Visit& visit) const {
+        const auto* finer = std::get_if<FinerAreaSampler<float>>(&area_);
+        return finer ? visit(*finer) : visit(std::get<AreaSampler<float>>(area_));
+    }
+
     enum class Technique { none, uniform, projected, pivot, exact };
 
     Vec3f sample_in_cap(Technique technique, const Vec2f& u) const;
@@ -69,8 +78,9 @@ class LightSampler {
 
     const Light& light_;
     const SurfacePoint& point_;
-    std::optional<AreaSampler<float>> area_;  ///< joint
-    std::optional<Cap<float>> cap_;           ///< world space
+    std::variant<std::monostate, AreaSampler<float>, FinerAreaSampler<float>> area_;  ///< joint
+    std::optional<AreaView<float>> area_view_;                                        ///< of area_, if it is there
+    std::optional<Cap<float>> cap_;                                                   ///< world space
     Cap<float> cap_local_{};
     Technique diffuse_technique_ = Technique::none;
     Technique glossy_technique_ = Technique::none;
