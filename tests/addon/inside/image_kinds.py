@@ -361,11 +361,14 @@ def _missing_file(tree: Any, folder: Path) -> None:
     texture(tree, image)
 
 
-@case
 def _broken_file(tree: Any, folder: Path) -> None:
     path = folder / "broken.exr"
     path.write_bytes(struct.pack("<2I", 20000630, 2) + b"broken")
     texture(tree, bpy.data.images.load(str(path)))
+
+
+if bpy.app.version >= (4, 0):  # Debian's Blender itself hangs
+    CASES["broken_file"] = _broken_file
 
 
 @case
