@@ -11,13 +11,13 @@ from .program import Program, Value
 
 @dataclass(frozen=True)
 class Highlight:
-    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, thin_film.h, metal_film.h or
-    ashikhmin_shirley.h, which say what they are.
+    """Numbers of one of the core's lobes of core/bsdf/lobes/anisotropic_ggx.h, thin_film.h, metal_film.h,
+    ashikhmin_shirley.h or clearcoat.h, which say what they are.
 
     curve: what its microfacets reflect, of the lobe that `kind` names. normal: world space; None: the surface's.
     """
 
-    kind: str  # "anisotropic", "conductor", "thin_film", "metal_film" or "ashikhmin_shirley"
+    kind: str  # "anisotropic", "conductor", "thin_film", "metal_film", "ashikhmin_shirley" or "clearcoat"
     curve: tuple[tuple[str, Value], ...]
     color: Value
     alpha_x: Value
@@ -48,6 +48,8 @@ class Highlight:
             return {"conductor_f0": f0 * self.color, "conductor_f90": self.color, "conductor_weight": part}
         if self.kind == "ashikhmin_shirley":
             return {"conductor_f0": self.color, "conductor_f90": self.color, "conductor_weight": part}
+        if self.kind == "clearcoat":
+            return {"dielectric_weight": values["weight"] * part, "dielectric_ior": self.color.program.number(1.5)}
         if self.kind == "thin_film":
             bare = {"dielectric_weight": part, "dielectric_ior": values["ior"]}
             return bare | {"dielectric_tint": values["f0_tint"] * hue(self.color)}
@@ -67,6 +69,9 @@ class Highlight:
             own["normal"] = self.normal.program.registers(self.normal)
         if self.kind == "ashikhmin_shirley":
             return self.kind, own, {}
+        if self.kind == "clearcoat":
+            own |= {"weight": dict(self.curve)["weight"] * share(self.color), "alpha": self.alpha_x}
+            return self.kind, {name: own[name] for name in ("weight", "alpha", "normal") if name in own}, {}
         return self.kind, dict(self.curve) | own, settings | {"beckmann": float(self.is_beckmann)}
 
 
@@ -86,6 +91,13 @@ def coat(program: Program, alpha: Value, ior: Value, weight: Value, normal: Valu
     return Highlight(
         "anisotropic", tuple(curve.items()), white, alpha, alpha, program.number(0.0), True, normal, is_coat=True
     )
+
+
+def clearcoat(program: Program, alpha: Value, weight: Value, normal: Value | None) -> Highlight:
+    """That of Principled before Blender 4.0."""
+    white, turns = program.colour((1, 1, 1)), program.number(0.0)
+    alpha = alpha.at_most(0.9)  # as the lobe has it
+    return Highlight("clearcoat", (("weight", weight),), white, alpha, alpha, turns, False, normal, is_coat=True)
 
 
 def sides(alpha: Value, anisotropic: Value) -> tuple[Value, Value]:

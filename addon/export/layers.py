@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .highlight import Highlight, coat, sides
+from .highlight import Highlight, clearcoat, coat, sides
 from .nodes import Owner, Socket, colour, is_constant, normal, number, tangent
 from .program import Program, Value
 from .surface import Surface
@@ -57,24 +57,26 @@ def beneath_dielectric(
 def coated(whole: Surface, feed: Socket, owner: Owner) -> Surface:
     """Principled beneath its coat, which takes from it what it reflects and absorbs. [Cycles 4.5 svm/closure.h]
 
-    Before Blender 4.0 that was Clearcoat, which Blender reads as a quarter of a coat.
+    Before Blender 4.0 that was Clearcoat, which takes nothing. [Cycles 3.4 svm/closure.h]
     """
     program, is_new = owner.program, feed.find_input("Coat Weight") is not None
-    weight = number(feed.input("Coat Weight", "Clearcoat"), owner).at_least(0.0) * (1.0 if is_new else 0.25)
+    weight = number(feed.input("Coat Weight", "Clearcoat"), owner).at_least(0.0)
     if weight.is_always(0):
         return whole
     roughness = number(feed.input("Coat Roughness", "Clearcoat Roughness"), owner).clamped()
-    ior = number(feed.input("Coat IOR"), owner).at_least(1.0) if is_new else program.number(1.5)
+    alpha = roughness * roughness
     turned = normal(feed, owner, "Coat Normal", "Clearcoat Normal")
-    white, alpha = program.colour((1, 1, 1)), roughness * roughness
+    normal_of_coat = None if turned == whole.normal else program.op("normal") if turned is None else turned
+    if not is_new:
+        return replace(whole, highlights=(*whole.highlights, clearcoat(program, alpha, weight * 0.25, normal_of_coat)))
+    ior, white = number(feed.input("Coat IOR"), owner).at_least(1.0), program.colour((1, 1, 1))
     reaches, path = beneath_dielectric(program, turned, alpha, ior, white, multiscatter=True)
     left = (1.0 - weight * (1.0 - reaches)).clamped()
-    tint = colour(feed.input("Coat Tint"), owner).at_least(0.0) if is_new else white
+    tint = colour(feed.input("Coat Tint"), owner).at_least(0.0)
     if not tint.is_always(1):
         left = program.mixed(weight, white, program.each("math_power", tint, path)) * left
         if whole.gloss() > 0:  # a base's dielectric has no colour that scales it at every angle
             whole = _apart(whole, whole.alpha, whole.alpha, program.number(0.0))
-    normal_of_coat = None if turned == whole.normal else program.op("normal") if turned is None else turned
     coats = () if ior.is_always(1) else (coat(program, alpha, ior, weight, normal_of_coat),)
     beneath = replace(whole.scaled(left), opacity=whole.opacity)
     return replace(beneath, highlights=beneath.highlights + coats)

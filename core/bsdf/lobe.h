@@ -9,6 +9,7 @@
 #include "core/bsdf/highlight.h"
 #include "core/bsdf/lobes/anisotropic_ggx.h"
 #include "core/bsdf/lobes/ashikhmin_shirley.h"
+#include "core/bsdf/lobes/clearcoat.h"
 #include "core/bsdf/lobes/dielectric.h"
 #include "core/bsdf/lobes/disney_diffuse.h"
 #include "core/bsdf/lobes/further_base.h"
@@ -29,9 +30,10 @@
 namespace pivot {
 
 template <class T>
-using LobeKinds = std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>,
-                             Conductor<T>, OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>,
-                             ThinFilm<T>, Strand<T>, AshikhminShirley<T>, Toon<T>, MetalFilm<T>, ThinGlass<T>>;
+using LobeKinds =
+    std::tuple<FurtherBase<T>, Translucent<T>, Tabulated<T>, Dielectric<T>, AnisotropicGgx<T>, Conductor<T>,
+               OrenNayar<T>, DisneyDiffuse<T>, Sheen<T>, Velvet<T>, Hair<T>, Subsurface<T>, ThinFilm<T>, Strand<T>,
+               AshikhminShirley<T>, Toon<T>, MetalFilm<T>, ThinGlass<T>, Clearcoat<T>>;
 
 /// A lobe that reads a table, whose AddressOf it and its Parameters call ndf (lobe_record.h clears it in other lanes).
 template <class L>

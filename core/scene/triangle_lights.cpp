@@ -1,6 +1,10 @@
 #include "core/scene/triangle_lights.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
+#include <unordered_map>
 
 #include "core/sampling/warp.h"
 #include "core/shaders/surface_places.h"
@@ -39,6 +43,27 @@ float mean_brightness(const Shader& shader, const Mesh& mesh, const Instance& in
     return std::accumulate(brightness.begin(), brightness.end(), 0.0f) / batch_size;
 }
 
+/// A triangle's corners in its object's space, in whatever order it has them.
+struct Corners {
+    std::array<Vec3f, 3> positions;
+
+    explicit Corners(const std::array<Vec3f, 3>& corners) : positions(corners) {
+        std::ranges::sort(positions, [](const Vec3f& a, const Vec3f& b) {
+            return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+        });
+    }
+    bool operator==(const Corners&) const = default;
+};
+struct CornersHash {
+    std::size_t operator()(const Corners& corners) const {
+        constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;  // of the golden ratio
+        std::uint64_t h = 0;
+        for (const Vec3f& p : corners.positions)
+            for (int c = 0; c < 3; ++c) h = ((h ^ h >> 32) + std::bit_cast<std::uint32_t>(p[c] + 0.0f)) * odd;
+        return static_cast<std::size_t>(h >> 16);
+    }
+};
+
 }  // namespace
 
 TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, std::span<const Shader> shaders,
@@ -47,6 +72,7 @@ TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, 
     made.light_of_triangle.assign(mesh.triangles.size(), TriangleLights::no_light);
     if (mesh.curves) return made;  // found by the rays that meet them
     ProgramMemory memory;
+    std::unordered_map<Corners, std::uint32_t, CornersHash> lights;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Shader& shader = shaders[material_of(instance, mesh, i)];
         const bool varies = shader.has_varying_emission();
@@ -58,7 +84,10 @@ TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, 
         const auto corner = [&](std::uint32_t v) { return instance.world_from_object.point(mesh.positions[v]); };
         const auto light = make_triangle_light({corner(t.x), corner(t.y), corner(t.z)}, radiance);
         if (!light) continue;
-        made.light_of_triangle[i] = static_cast<std::uint32_t>(made.lights.size());
+        const Corners corners({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]});
+        const auto [found, is_new] = lights.emplace(corners, static_cast<std::uint32_t>(made.lights.size()));
+        made.light_of_triangle[i] = found->second;
+        if (!is_new) continue;
         made.lights.push_back(*light);
         made.triangle_of_light.push_back(i);
         made.any_varies = made.any_varies || varies;

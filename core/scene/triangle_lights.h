@@ -22,7 +22,8 @@ struct TriangleLights {
     bool any_varies = false;  ///< of those whose emission is a program's: their radiance is grey, a few places' mean
 };
 
-/// A light for each triangle that spans an area and, as far as its program was asked, shines.
+/// A light for each triangle that spans an area and, as far as its program was asked, shines. Those in one place, of
+/// which rays meet one, are one light.
 TriangleLights make_triangle_lights(const Mesh& mesh, const Instance& instance, std::span<const Shader> shaders,
                                     const CameraFacts& camera);
 

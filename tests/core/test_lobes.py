@@ -286,9 +286,12 @@ def test_bad_lobes_are_named(lobes: list[tuple[str, dict[str, object]]], said: s
         pivot_core.Material(lobes=lobes)
 
 
-@pytest.mark.parametrize(("name", "lit_from"), PICTURES)
+@pytest.mark.parametrize(
+    ("name", "lit_from"), [case for case in PICTURES if not (case[0].startswith("strand") and case[1] == "below")]
+)
 def test_the_analytic_integrator_knows_every_lobe(name: str, lit_from: str) -> None:
     """Its picture is Monte Carlo's within the error that it predicts and what Monte Carlo leaves; the world apart.
+    What strands send on of lamps behind them, see strand.h, only samples of the BSDF find.
     Upright fibres send next to nothing here: a millionth of the lights' radiance is not seen."""
     scene = on_floor(WITH_CLOSED_FORMS[name], lit_from)
     scene.set_world((0, 0, 0))

@@ -136,6 +136,25 @@ def test_only_triangles_of_an_emissive_slot_shine_and_both_of_their_sides() -> N
         np.testing.assert_allclose(lit([glow, black], z) + lit([black, glow], z), both, rtol=0.02)
 
 
+@pytest.mark.parametrize("mode", ["JOINT", "LIGHT", "MIS", "BSDF"])
+def test_faces_in_one_place_shine_once(mode: str) -> None:
+    """Of a copy that a modifier leaves, turned over, rays meet one face of two."""
+
+    def lit(copies: int) -> float:
+        scene = pivot_core.Scene()
+        grey = scene.add_material("grey", pivot_core.Material(diffuse=(0.5,) * 3))
+        scene.add_instances("floor", add_plane(scene, 10), place(0, 0, -2), [grey])
+        corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]] * copies, np.float32)
+        triangles = np.array([[0, 1, 2], [0, 2, 3], [6, 5, 4], [7, 6, 4]][: 2 * copies])
+        panel = scene.add_mesh("panel", corners, np.arange(4 * copies), triangles)
+        glow = scene.add_material("glow", pivot_core.Material(emission=EMISSION))
+        scene.add_instances("panel", panel, place(), [glow], hidden_from=["CAMERA"])
+        set_camera(scene, (0, -0.1, 20), (0, 0, -2), (8, 8), 0.05)
+        return float(render(scene, samples=256, max_bounces=0, light_sampling=mode)[..., :3].mean())
+
+    assert lit(2) == pytest.approx(lit(1), rel=0.02)
+
+
 def test_emission_is_followed_by_edits() -> None:
     scene = floor_under("mesh", 8)
     first = render(scene, samples=16, max_bounces=0)[..., 0].mean()

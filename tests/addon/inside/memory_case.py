@@ -35,7 +35,7 @@ def main(folder: Path) -> Any:
 
 
 def _limited(memory: Any, folder: Path) -> float:
-    """What is there in a control group of 100 MB that uses 60, 15 of them for files it can drop; folders around it are asked too."""
+    """What is there in a control group of 100 MB that uses 60, 15 of them for files it can drop."""
     (folder / "pivot.limit").write_text("100000000\n")
     (folder / "pivot.used").write_text("60000000\n")
     (folder / "memory.stat").write_text("anon 1\ninactive_file 15000000\n")
