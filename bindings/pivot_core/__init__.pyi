@@ -1058,6 +1058,8 @@ def fog_lamp_samples(
 ) -> tuple:
     """
     fog_lamp_samples(light, g, position, direction, u): what u (n, 2) in [0, 1) sample of a lamp from a place in fog of Henyey and Greenstein's phase function that a ray along `direction` crosses: wi (n, 3) and their density per steradian (n,).
+    """
+
 def mean_lamp_share(shader: Shader, light: SphereLight | SpotLight | SunLight | AreaLight) -> float:
     """
     mean_lamp_share(shader, light): what a lamp's shader leaves of its light on the whole, in grey.
@@ -1117,6 +1119,7 @@ LOBES: dict = {
         "weight": (1, 0.0, 3.4028234663852886e38),
         "film_ior": (1, 9.999999747378752e-06, 3.4028234663852886e38),
         "film_nm": (1, 0.0, 3.4028234663852886e38),
+        "beckmann": (1, 0.0, 1.0),
     },
     "anisotropic": {
         "conductor_f0": (3, 0.0, 3.4028234663852886e38),
@@ -1132,6 +1135,7 @@ LOBES: dict = {
         "rotation": (1, -1000.0, 1000.0),
         "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
+        "beckmann": (1, 0.0, 1.0),
     },
     "conductor": {
         "n": (3, 0.0, 3.4028234663852886e38),
@@ -1142,6 +1146,7 @@ LOBES: dict = {
         "rotation": (1, -1000.0, 1000.0),
         "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
+        "beckmann": (1, 0.0, 1.0),
     },
     "oren_nayar": {
         "weight": (3, 0.0, 3.4028234663852886e38),
@@ -1190,6 +1195,48 @@ LOBES: dict = {
         "rotation": (1, -1000.0, 1000.0),
         "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
         "multiscatter": (1, 0.0, 1.0),
+        "beckmann": (1, 0.0, 1.0),
+    },
+    "strand": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "transmits": (1, 0.0, 1.0),
+        "roughness_along": (1, 0.0, 1.0),
+        "roughness_around": (1, 0.0, 1.0),
+        "tilt_rad": (1, -1.600000023841858, 1.600000023841858),
+    },
+    "ashikhmin_shirley": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+    },
+    "toon": {
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "size": (1, 0.0, 1.0),
+        "smooth": (1, 0.0, 1.0),
+        "glossy": (1, 0.0, 1.0),
+    },
+    "metal_film": {
+        "n": (3, 0.0, 3.4028234663852886e38),
+        "k": (3, 0.0, 3.4028234663852886e38),
+        "f82": (3, 0.0, 1.0),
+        "has_f82": (1, 0.0, 1.0),
+        "film_ior": (1, 1.0, 3.4028234663852886e38),
+        "film_nm": (1, 0.0, 3.4028234663852886e38),
+        "color": (3, 0.0, 3.4028234663852886e38),
+        "alpha_x": (1, 0.0, 1.0),
+        "alpha_y": (1, 0.0, 1.0),
+        "rotation": (1, -1000.0, 1000.0),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
+        "multiscatter": (1, 0.0, 1.0),
+        "beckmann": (1, 0.0, 1.0),
+    },
+    "thin_glass": {"color": (3, 0.0, 3.4028234663852886e38), "alpha": (1, 0.0, 1.0)},
+    "clearcoat": {
+        "weight": (1, 0.0, 3.4028234663852886e38),
+        "alpha": (1, 0.0, 0.8999999761581421),
+        "normal": (3, -3.4028234663852886e38, 3.4028234663852886e38),
     },
 }
 LOBES_WITH_NDF: list = ["tabulated"]
