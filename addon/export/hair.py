@@ -30,7 +30,7 @@ def principled_hair(feed: Socket, owner: Owner) -> Surface:
         ("variance", _variance(clamped)),
         ("primary_variance", _variance((primary * clamped).at_least(0.001).at_most(1.0))),
         ("scale", _scale(around.at_least(0.001).at_most(1.0))),
-        ("tilt_rad", 0.0 - number(feed.input("Offset"), owner)),
+        ("tilt_rad", number(feed.input("Offset"), owner)),
         ("ior", number(feed.input("IOR"), owner).at_least(1.0)),
     )
     lobe = Lobe("hair", (("color", program.colour((1, 1, 1))),), shape)

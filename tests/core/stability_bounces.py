@@ -74,8 +74,10 @@ SCENES = (
     Contact("lit wall touches metal, alpha 0.1", 0.25, alpha=0.1),
     Contact("lit wall touches metal, alpha 1", 0.3, alpha=1.0),
     Contact("slot narrower than cells", 0.05, is_slot=True),
-    Contact("contact in 1e-4 units", 0.05, alpha=0.1, unit_m=1e-4),
-    Contact("contact in 1e6 units", 0.05, alpha=0.1, unit_m=1e6),
+    # Cells go by powers of two: in other units they lie elsewhere, which moves no more than they are off themselves.
+    Contact("contact in 2^-13 units", 1e-3, alpha=0.1, unit_m=2.0**-13),
+    Contact("contact in 2^20 units", 1e-3, alpha=0.1, unit_m=2.0**20),
+    Contact("contact in 0.7 units", 0.15, alpha=0.1, unit_m=0.7),
     Contact("contact 1e5 m from the origin", 0.1, alpha=0.1, far_m=1e5),
 )
 

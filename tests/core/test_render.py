@@ -225,7 +225,7 @@ def by_strategy() -> dict[str, tuple[np.ndarray, np.ndarray]]:
     scene.set_world((0.1, 0.1, 0.12))
     result = {}
     for index, strategy in enumerate(STRATEGIES):
-        seeds = range(100 * index, 100 * index + 12)
+        seeds = range(100 * index, 100 * index + 24)
         runs = [
             render(scene, samples=128, seed=seed, max_bounces=0, light_sampling=strategy)[..., :3].mean(-1)
             for seed in seeds

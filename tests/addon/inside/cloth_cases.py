@@ -17,8 +17,6 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "clay": ("ShaderNodeBsdfDiffuse", {"Color": RED, "Roughness": 0.4}),
     "chalk": ("ShaderNodeBsdfDiffuse", {"Color": RED, "Roughness": 1.0}),
     "default": ("ShaderNodeBsdfPrincipled", {}),
-    "toon": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.6, "Smooth": 0.3}),
-    "toon_shine": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.3, "Smooth": 0.1, "component": "GLOSSY"}),
 }
 if OLD:
     CASES |= {
@@ -35,6 +33,9 @@ else:
         "plush": (fibre, {"Color": RED, "Roughness": 0.25, "distribution": "ASHIKHMIN"}),
         "fibre": (fibre, {"Color": RED, "Roughness": 0.5}),
         "fine_fibre": (fibre, {"Color": RED, "Roughness": 0.2}),
+        # Samples of 3.4's Toon fade less towards its rim than the BSDF that they are of.
+        "toon": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.6, "Smooth": 0.3}),
+        "toon_shine": ("ShaderNodeBsdfToon", {"Color": RED, "Size": 0.3, "Smooth": 0.1, "component": "GLOSSY"}),
         "dust": (fibre, {"Color": RED, "Roughness": 1.0}),
         "sheen": (
             "ShaderNodeBsdfPrincipled",

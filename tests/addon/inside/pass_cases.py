@@ -41,7 +41,7 @@ def main(folder: Path) -> Any:
     for name in PASSES:
         setattr(layer, f"use_pass_{name}", True)
     _cycles(folder / "CYCLES.exr", 2, file_format="OPEN_EXR_MULTILAYER")
-    _pivot(folder / "MONTE_CARLO.exr", 2, "JOINT", file_format="OPEN_EXR_MULTILAYER")
+    _pivot(folder / "MONTE_CARLO.exr", 2, "JOINT", 256, file_format="OPEN_EXR_MULTILAYER")
     bpy.context.scene.pivot.integrator = "ANALYTIC"
     _pivot(folder / "ANALYTIC.exr", 0, "JOINT", file_format="OPEN_EXR_MULTILAYER")
     return None
