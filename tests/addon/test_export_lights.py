@@ -135,6 +135,7 @@ def test_exposure_temperature_and_normalize(host: Host, lights: Any) -> None:
 
 def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
+        "light 'unseen': Multiple Importance Sample is not supported, mirrors show it all the same",
         "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
         "object 'panel', material 'glow': in the analytic integrator its triangles light others by a mean of each, "
         "in grey. Fix: use Monte Carlo",

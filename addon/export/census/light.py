@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .table import Table
+from .table import LeftOut, Table
 
 LIGHT = {
     "Light": Table(
@@ -24,6 +24,7 @@ LIGHT = {
     ),
     "CyclesLightSettings": Table(
         used="is_portal cast_shadow max_bounces",
-        no_meaning="name use_multiple_importance_sampling is_caustics_light",
+        left_out=(LeftOut("use_multiple_importance_sampling", True, "mirrors show it all the same"),),
+        no_meaning="name is_caustics_light",
     ),
 }

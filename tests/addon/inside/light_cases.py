@@ -79,6 +79,7 @@ def _reports() -> Any:
     parts.camera()
     parts.light("oval", "SPOT").scale = (1, 2, 1)
     parts.light("even", "SPOT").scale = (2, 2, 2)
+    parts.light("unseen", "POINT").data.cycles.use_multiple_importance_sampling = False
     bpy.context.scene.cycles.sample_clamp_direct = 1.0
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
     place = glow.node_tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
