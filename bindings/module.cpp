@@ -21,6 +21,7 @@ PYBIND11_MODULE(PIVOT_MODULE, module) {
     register_shaders(module);
     register_camera(module);
     register_scene(module);
+    register_meshes(module);
     register_rays(module);
     register_light_samples(module);
     register_occlusion(module);

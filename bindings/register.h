@@ -26,6 +26,7 @@ void register_shaders(pybind11::module_& module);
 void register_camera(pybind11::module_& module);
 void register_lights(pybind11::module_& module);
 void register_scene(pybind11::module_& module);
+void register_meshes(pybind11::module_& module);
 void register_rays(pybind11::module_& module);
 void register_light_samples(pybind11::module_& module);
 void register_occlusion(pybind11::module_& module);

@@ -557,11 +557,6 @@ class Lens:
         ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
 
-class Mesh:
-    """
-    A scene's mesh, for scenes to come.
-    """
-
 class SharedMeshes:
     """
     What scenes share that are made one after the other: meshes and their BVHs.
@@ -896,6 +891,11 @@ class Scene:
         """
     @property
     def has_shadow_catchers(self) -> bool: ...
+
+class Mesh:
+    """
+    A scene's mesh, for scenes to come.
+    """
 
 class RenderSettings:
     """
