@@ -100,23 +100,25 @@ def test_edge_tint(host: Host, materials: dict[str, Any]) -> None:
 
 
 def test_coats(host: Host, materials: dict[str, Any]) -> None:
-    """What lies beneath varies with the view; before Blender 4.0 a clearcoat is a quarter of a coat."""
+    """What lies beneath varies with the view; before Blender 4.0 a clearcoat takes nothing from it."""
     is_new = host.version >= (4, 0)
-    beneath = ["dielectric_weight", *(["diffuse"] if is_new else []), "weight"]
-    diffuse_lobe = [] if is_new else ["lobes.1.color"]
-    weight = 0.5 if is_new else 0.125
+    beneath = ["dielectric_weight", "diffuse", "weight"] if is_new else []
     for name in ("lacquered", "bumpy_beneath"):
+        is_bumpy = name == "bumpy_beneath"
+        assert materials[name]["varying"] == sorted([*beneath, *(["lobes.0.normal", "normal"] if is_bumpy else [])])
         (kind, coat), *rest = materials[name]["lobes"]
-        assert [other for other, _ in rest] == ([] if is_new else ["disney_diffuse"])
-        assert coat["dielectric_weight"] == pytest.approx(weight)
+        if not is_new:
+            assert kind == "clearcoat"
+            assert (coat["weight"], coat["alpha"]) == pytest.approx((0.125, 0.25))
+            assert [other for other, _ in rest] == ["disney_diffuse"]
+            continue
+        assert rest == []
+        assert coat["dielectric_weight"] == pytest.approx(0.5)
         assert coat["dielectric_ior"] == pytest.approx(1.5)
         assert coat["multiscatter"] == 1
-        if name == "lacquered":
-            assert (kind, coat["alpha"]) == ("base", pytest.approx(0.25))
-            assert materials[name]["varying"] == sorted([*beneath, *diffuse_lobe])
-        else:
-            assert (kind, coat["alpha_x"], coat["alpha_y"]) == ("anisotropic", pytest.approx(0.25), pytest.approx(0.25))
-            assert materials[name]["varying"] == sorted([*beneath, *diffuse_lobe, "lobes.0.normal", "normal"])
+        assert kind == ("anisotropic" if is_bumpy else "base")
+        alphas = (coat["alpha_x"], coat["alpha_y"]) if is_bumpy else (coat["alpha"],)
+        assert alphas == pytest.approx((0.25,) * len(alphas))
 
 
 def test_anisotropic_highlights(host: Host, materials: dict[str, Any]) -> None:
