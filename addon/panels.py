@@ -171,6 +171,8 @@ class PIVOT_RENDER_PT_film(PivotPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = columns(self)
+        if hasattr(context.scene, "cycles"):
+            layout.prop(context.scene.cycles, "film_exposure")
         layout.prop(context.scene.render, "filter_size")
         layout.prop(context.scene.render, "film_transparent", text="Transparent")
 
