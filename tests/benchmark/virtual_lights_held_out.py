@@ -81,22 +81,19 @@ def emissive() -> pivot_core.Scene:
 
 def touching() -> pivot_core.Scene:
     """A box and a ball on a floor at a wall, from nearby."""
-    scene = pivot_core.Scene()
-    white = diffuse(scene, (0.8, 0.8, 0.8))
-    box(scene, (-3.0, -3.0, -0.2), (3.0, 2.0, 0.0), white)
-    box(scene, (-3.0, 2.0, -0.2), (3.0, 2.2, 2.5), white)
-    box(scene, (-0.3, 1.2, 0.0), (0.3, 1.6, 0.5), diffuse(scene, (0.7, 0.3, 0.2)))
-    ball(scene, (0.9, 1.4, 0.25), 0.25, white)
-    sphere_light(scene, (0.5, -0.5, 2.2), 0.1, 150.0)
-    parts.set_camera(scene, (0.6, -0.6, 0.8), (0.3, 1.9, 0.25), SIZE, 0.45)
-    return scene
+    return _at_a_wall(lambda scene: diffuse(scene, (0.8, 0.8, 0.8)))
 
 
 def polished() -> pivot_core.Scene:
     """The same on a floor of brushed metal."""
+    return _at_a_wall(lambda scene: metal(scene, (0.8, 0.8, 0.8), 0.45))
+
+
+def _at_a_wall(floor: Callable[[pivot_core.Scene], int]) -> pivot_core.Scene:
+    """floor: makes its material."""
     scene = pivot_core.Scene()
     white = diffuse(scene, (0.8, 0.8, 0.8))
-    box(scene, (-3.0, -3.0, -0.2), (3.0, 2.0, 0.0), metal(scene, (0.8, 0.8, 0.8), 0.45))
+    box(scene, (-3.0, -3.0, -0.2), (3.0, 2.0, 0.0), floor(scene))
     box(scene, (-3.0, 2.0, -0.2), (3.0, 2.2, 2.5), white)
     box(scene, (-0.3, 1.2, 0.0), (0.3, 1.6, 0.5), diffuse(scene, (0.7, 0.3, 0.2)))
     ball(scene, (0.9, 1.4, 0.25), 0.25, white)

@@ -48,17 +48,22 @@ def rendered(scene: pivot_core.Scene, **settings: object) -> pivot_core.Session:
     return session
 
 
+def sum_of_groups(session: pivot_core.Session) -> Floats:
+    """Combined, which they are to sum to, each of them with light."""
+    groups: list[Floats] = [np.array(session.read_named(group)) for group in range(GROUPS)]
+    combined = np.array(session.read("Combined"))[..., :3]
+    np.testing.assert_allclose(sum(groups), combined, rtol=1e-3, atol=1e-4)
+    assert all(group.mean() > 0.0005 for group in groups)
+    return combined
+
+
 @pytest.mark.parametrize(
     ("adaptive", "is_foggy", "has_veil", "clamp_indirect"),
     [(False, False, False, 0.0), (True, False, True, 0.0), (False, True, True, 0.0), (False, True, False, 0.05)],
 )
 def test_groups_sum_to_combined(adaptive: bool, is_foggy: bool, has_veil: bool, clamp_indirect: float) -> None:
     settings = {"samples": 32, "adaptive": adaptive, "clamp_indirect": clamp_indirect}
-    session = rendered(room(is_foggy, has_veil), light_groups=GROUPS, **settings)
-    groups: list[Floats] = [np.array(session.read_named(group)) for group in range(GROUPS)]
-    combined = np.array(session.read("Combined"))[..., :3]
-    np.testing.assert_allclose(sum(groups), combined, rtol=1e-3, atol=1e-4)
-    assert all(group.mean() > 0.0005 for group in groups)
+    combined = sum_of_groups(rendered(room(is_foggy, has_veil), light_groups=GROUPS, **settings))
     plain = np.array(rendered(room(is_foggy, has_veil), **settings).read("Combined"))[..., :3]
     np.testing.assert_array_equal(combined, plain)
 
@@ -66,11 +71,7 @@ def test_groups_sum_to_combined(adaptive: bool, is_foggy: bool, has_veil: bool, 
 @pytest.mark.parametrize(("is_foggy", "has_veil", "indirect"), [(False, True, "VSGL"), (True, False, "NONE")])
 def test_groups_of_the_analytic_integrator_sum_to_combined(is_foggy: bool, has_veil: bool, indirect: str) -> None:
     settings = {"samples": 4, "integrator": "ANALYTIC", "indirect": indirect, "virtual_lights": 256}
-    session = rendered(room(is_foggy, has_veil), light_groups=GROUPS, **settings)
-    groups: list[Floats] = [np.array(session.read_named(group)) for group in range(GROUPS)]
-    combined = np.array(session.read("Combined"))[..., :3]
-    np.testing.assert_allclose(sum(groups), combined, rtol=1e-3, atol=1e-4)
-    assert all(group.mean() > 0.0005 for group in groups)
+    combined = sum_of_groups(rendered(room(is_foggy, has_veil), light_groups=GROUPS, **settings))
     # Virtual lights are cells of each group's own light, a little other than those of all light.
     plain = np.array(rendered(room(is_foggy, has_veil), **settings).read("Combined"))[..., :3]
     assert np.abs(combined - plain).mean() < (0.01 if indirect == "VSGL" else 1e-6) * plain.mean()
