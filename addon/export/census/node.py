@@ -133,7 +133,8 @@ INPUTS = {
         "Clearcoat, Clearcoat Roughness, Clearcoat Normal, Diffuse Roughness, Sheen, Sheen Weight, Sheen Tint,"
         "Sheen Roughness, Subsurface Weight, Subsurface, Subsurface Radius, Subsurface Color, Subsurface Scale,"
         "Subsurface IOR, Subsurface Anisotropy, Thin Film Thickness, Thin Film IOR, Thin Wall@5.2",
-        no_meaning="Transmission Dispersion Scale@5.3, Transmission Dispersion Abbe Number@5.3, Weight",
+        left_out=(("Transmission Dispersion Scale@5.3", 0.0),),
+        no_meaning="Transmission Dispersion Abbe Number@5.3, Weight",
     ),
     "ShaderNodeBsdfDiffuse": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
     "ShaderNodeBsdfSheen": Inputs("Color, Roughness, Normal", no_meaning="Weight"),
