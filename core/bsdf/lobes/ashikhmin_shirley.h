@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/bsdf/lobes/anisotropic_ggx.h"
+#include "core/bsdf/lobes/sampled_reflectance.h"
 
 namespace pivot {
 
@@ -35,13 +36,8 @@ struct AshikhminShirley {
 
     static AshikhminShirley seen(const Parameters& p, const Vec3<T>& wo_local) {
         AshikhminShirley lobe{TurnedFacets<T>::turned(p.normal, p.rotation, p.alpha_x, p.alpha_y, T(0)), p.color, T(0)};
-        constexpr std::size_t count = 64;
-        for (std::size_t k = 0; k < count; ++k) {
-            const Vec3<T> wi = lobe.turned.sample(wo_local, golden_point(T(static_cast<float>(k)), count));
-            const T pdf = lobe.turned.pdf_omega(wo_local, wi);
-            lobe.reflectance += select(pdf > T(0), lobe.shape(wo_local, wi) / max(pdf, tiny<T>), T(0));
-        }
-        lobe.reflectance *= T(1.0f / static_cast<float>(count));
+        lobe.reflectance = sampled_reflectance<64>(
+            lobe, wo_local, [&](const Vec3<T>& wi_local) { return lobe.shape(wo_local, wi_local); });
         return lobe;
     }
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const { return color * shape(wo_local, wi_local); }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/bsdf/lobes/anisotropic_ggx.h"
+#include "core/bsdf/lobes/sampled_reflectance.h"
 
 namespace pivot {
 
@@ -36,13 +37,8 @@ struct Clearcoat {
         const Vec3<T> x(T(1), T(0), T(0)), z(T(0), T(0), T(1));
         Clearcoat lobe{frame_from_z(select(length_squared(p.normal) > T(0), p.normal, z), x), p.weight,
                        min(max(p.alpha, T(min_alpha)), T(most_alpha)), T(0)};
-        constexpr std::size_t count = 64;
-        for (std::size_t k = 0; k < count; ++k) {
-            const Vec3<T> wi = lobe.sample(wo_local, T(0), golden_point(T(static_cast<float>(k)), count));
-            const T pdf = lobe.pdf_omega(wo_local, wi);
-            lobe.reflectance += select(pdf > T(0), lobe.shape(wo_local, wi) / max(pdf, tiny<T>), T(0));
-        }
-        lobe.reflectance *= T(1.0f / static_cast<float>(count));
+        lobe.reflectance = sampled_reflectance<64>(
+            lobe, wo_local, [&](const Vec3<T>& wi_local) { return lobe.shape(wo_local, wi_local); });
         return lobe;
     }
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {

@@ -4,7 +4,7 @@
 
 #include "core/bsdf/base.h"
 #include "core/bsdf/highlight.h"
-#include "core/bsdf/lobe_record.h"
+#include "core/bsdf/lobes/sampled_reflectance.h"
 #include "core/math/frame.h"
 
 namespace pivot {
@@ -39,16 +39,11 @@ struct Toon {
         lobe.rim = clamp01(p.smooth) * quarter;
         lobe.height = T(1) - cos(min(lobe.angle + lobe.rim, quarter));
         lobe.of_diffuse = T(1) - is_glossy;
-        lobe.reflectance = T(0);
-        constexpr std::size_t count = 16;
-        for (std::size_t k = 0; k < count; ++k)
-            lobe.reflectance += lobe.share(lobe.sample(wo_local, T(0), golden_point(T(static_cast<float>(k)), count)));
-        lobe.reflectance *= T(1.0f / static_cast<float>(count));
+        lobe.reflectance = sampled_reflectance<16>(
+            lobe, wo_local, [&](const Vec3<T>& wi_local) { return lobe.shape(wo_local, wi_local); });
         return lobe;
     }
-    Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
-        return color * (pdf_omega(wo_local, wi_local) * share(wi_local));
-    }
+    Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const { return color * shape(wo_local, wi_local); }
     T pdf_omega(const Vec3<T>&, const Vec3<T>& wi_local) const {
         const Mask<T> is_within = T(1) - dot(axis, wi_local) < height && wi_local.z > T(0);
         return select(is_within, T(0.5f / pi<float>) / height, T(0));
@@ -65,6 +60,10 @@ struct Toon {
     Toon blurred(T) const { return *this; }
 
    private:
+    /// BRDF times cosine, white.
+    T shape(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
+        return pdf_omega(wo_local, wi_local) * share(wi_local);
+    }
     /// Of the light from a direction of the cone, what is reflected.
     T share(const Vec3<T>& wi_local) const {
         const T from_axis = acos(min(max(dot(axis, wi_local), T(-1)), T(1)));
