@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import denoise_blend
+from .denoise_filter import softened
 from .report import Reporter
 
 HOW_TO_GET_IT = (
@@ -27,7 +28,7 @@ HOW_TO_GET_IT = (
 )
 _DEVICE_CPU = 1  # OIDNDeviceType
 _FORMAT_FLOAT3 = 3  # OIDNFormat
-_LEFT = {"INDIRECT": 0.1**2, "ALL": 0.03**2}  # squared noise over squared light that may stay in direct light
+_LEFT = {"INDIRECT": 0.1**2, "ALL": 0.05**2}  # squared noise over squared light that may stay in direct light
 _FEW = 0.01  # the part of a picture's pixels that may have more before it is denoised
 _QUALITY_FAST = 4  # OIDNQuality, from version 2.3 on
 
@@ -80,8 +81,10 @@ class Denoised:
 class Denoiser:
     """It keeps what it last filtered with, for pictures like that one. One thread at a time may use it."""
 
-    def __init__(self, is_quick: bool = False) -> None:
-        """is_quick: in a tenth of the time, and a little worse."""
+    def __init__(self, filter_width_px: float = 1.0, is_quick: bool = False) -> None:
+        """filter_width_px: of the picture's pixel filter, as pivot_core.RenderSettings has it; 1: the box. is_quick: in
+        a tenth of the time, and a little worse."""
+        self.filter_width_px = filter_width_px
         self._is_quick = is_quick
         self._filter: _Filter | None = None
 
@@ -102,11 +105,11 @@ class Denoiser:
         )
         is_told = of_indirect.any()  # which takes samples that come together
         if _is_noisy(of_direct, _LEFT[mode]) if is_told else mode == "ALL":
-            clean = self.light(np.maximum(read("Noisy Image")[..., :3] - noisy_indirect, 0), guides)
+            clean = self._own_light(np.maximum(read("Noisy Image")[..., :3] - noisy_indirect, 0), guides)
             kept = denoise_blend.share_kept(direct, clean, of_direct, _LEFT[mode], shown) if is_told else 0.0
             direct = kept * direct + (1 - kept) * clean
         if not is_told or _is_noisy(of_indirect, _LEFT["INDIRECT"]):
-            indirect = self.light(noisy_indirect, guides)
+            indirect = self._own_light(noisy_indirect, guides)
         return Denoised(np.concatenate([direct + indirect, combined[..., 3:]], axis=-1), indirect, kept)
 
     def guides(self, read: Callable[[str], Pixels], is_coarse: bool = False) -> Guides:
@@ -126,6 +129,11 @@ class Denoiser:
         color = _halved(noisy) if guides.is_coarse else noisy
         clean = self._filtered(color=color, albedo=guides.albedo, normal=guides.normal)
         return _doubled(clean, *noisy.shape[:2]) if guides.is_coarse else clean
+
+    def _own_light(self, noisy: Pixels, guides: Guides) -> Pixels:
+        """As light(), of pixels' own samples, and as the pixel filter shows it."""
+        clean = self.light(noisy, guides)
+        return clean if guides.is_coarse else softened(clean, self.filter_width_px)
 
     def _filtered(self, **images: Pixels) -> Pixels:
         """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or

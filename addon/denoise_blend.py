@@ -2,7 +2,9 @@
 
 With v the variance of the noisy picture and r the squared difference of the two, both as means over pixels close by,
 the denoised one is off by r - v, and the mix with the least squared error takes (r - v) / r of the noisy one, as
-[James61] shrinks estimates by their own spread. All of it is over squared light, by which eyes see it.
+[James61] shrinks estimates by their own spread. All of it is over squared light, by which eyes see it. Where a picture
+is all detail the denoised one has much of the same noise, r is less by that, and r - v would tell of too little: half
+of v is subtracted, which leaves a third of the noisy picture where the denoised one is right.
 
 [James61] James and Stein, "Estimation with Quadratic Loss".
 """
@@ -16,6 +18,7 @@ Pixels = NDArray[np.float32]
 
 _DARK = 0.1  # where light is less, noise is seen as there
 _REACH_PX = 2
+_TOLD = 0.5  # of the noise: so much of it lies between the noisy and the denoised picture, at the least
 
 
 def relative_noise(variance: Pixels, picture: Pixels) -> Pixels:
@@ -33,7 +36,7 @@ def share_kept(noisy: Pixels, clean: Pixels, noise: Pixels, unseen: float, pictu
     unseen: noise up to that is no harm.
     """
     difference = _around(np.mean((noisy - clean) ** 2, axis=-1) * _per_squared_light(picture))
-    off, harm = np.maximum(difference - noise, 0), np.maximum(noise - unseen, 0)
+    off, harm = np.maximum(difference - _TOLD * noise, 0), np.maximum(noise - unseen, 0)
     off = np.maximum(off, 1e-12)  # without any harm all is kept
     share: Pixels = (off / (off + harm))[..., None].astype(np.float32)
     return share

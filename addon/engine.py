@@ -220,7 +220,7 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             session.stop()
         progress.show(session, last=True)
         try:
-            denoiser = denoise.Denoiser(self.is_preview)
+            denoiser = denoise.Denoiser(reader.filter_width_px, self.is_preview)
             show(denoised_passes(denoiser, mode, read, reader.wanted, reader.groups) if mode != "NONE" else None)
         except denoise.DenoiserError as error:  # the picture is there, with its noise
             show()

@@ -21,6 +21,7 @@ class PassReader:
         self.wanted = {entry.core_name for entry in PASSES if entry.is_on(view_layer)}
         self.named = named_passes(view_layer)
         self.exposure = film_exposure(scene)
+        self.filter_width_px = values["filter_width_px"]
         self.groups = [entry.name for entry in self.named if entry.is_light_group]
         self._catchers = CatcherReader(scene, view_layer, "shadow_catchers" in values)
 

@@ -212,7 +212,7 @@ class Viewport:
             if cleaned is not None:
                 self._is_clean = True
                 self._show(cleaned)
-            self._denoiser.offer(self._mode, session, samples, finished)
+            self._denoiser.offer(self._mode, session, self._settings["filter_width_px"], samples, finished)
         return finished
 
     def _pixels_of(self, session: Any) -> Any:

@@ -39,16 +39,16 @@ class ViewportDenoiser:
         self._session_number += 1
         self._samples_begun = 0
 
-    def offer(self, mode: str, session: Any, samples: int, finished: bool) -> None:
+    def offer(self, mode: str, session: Any, filter_width_px: float, samples: int, finished: bool) -> None:
         """Begin with a session's picture if it is better than the last and there is nothing else to do.
 
-        mode: as scene.pivot.denoise. session: with denoising_passes.
+        mode: as scene.pivot.denoise. session: with denoising_passes. filter_width_px: of its pixel filter.
         """
         is_better = samples >= 2 * self._samples_begun or (finished and samples > self._samples_begun)
         if samples == 0 or not is_better or self._is_broken or self._is_busy():
             return
         passes = {name: session.read(name) for name in _PASSES}
-        self._samples_begun = samples
+        self._samples_begun, self._denoiser.filter_width_px = samples, filter_width_px
         is_coarse = samples < _FINE_SAMPLES and not finished
         arguments = mode, passes, is_coarse, self._session_number
         self._thread = threading.Thread(target=self._clean, args=arguments, daemon=True)
