@@ -1,8 +1,8 @@
 """What a denoiser made of pixels' own samples, as the pixel filter shows it.
 
-Own samples fill a square of one pixel, and the filter reaches farther. A square's variance is 1/12 px^2 along each axis;
-what the filter has more is added by steps over three pixels. Without them edges of what was denoised would be sharper
-than those of the picture beside it.
+Own samples fill a square of one pixel, and the filter reaches farther. A square's variance is 1/12 px^2 along each
+axis; what the filter has more is added by steps over three pixels. Without them edges of what was denoised would be
+sharper than those of the picture beside it.
 
 [Harris78] On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform: Blackman-Harris, of which an
 offset's variance over its squared width is 1/12 + (-a1 + a2 / 4 - a3 / 9) / (2 pi^2 a0).
