@@ -21,8 +21,17 @@ T not_lost(T weight, T total) {
 /// One of a receiver's choices on its way down the tree.
 struct LightChoice::Pick {
     float u;
-    std::size_t light;
     float probability;
+    std::int32_t child;  ///< what it came to: a node, or ~light
+
+    /// Chooses of parts, cumulative weights before and up to one whose sum is total, that which u falls into: u is
+    /// left as what it is within that part.
+    void choose(float before, float up_to, float total, std::int32_t part) {
+        u = std::min((u * total - before) / (up_to - before), below_one);
+        probability *= (up_to - before) / total;
+        child = part;
+    }
+    void find_nothing() { probability = 0.0f, child = ~0; }
 };
 
 LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, std::size_t count,
@@ -66,67 +75,84 @@ LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, 
 
 /// What a node's children weigh for one receiver, each with all before it. Past the last child: all.
 LightChoice::Weights LightChoice::cumulative_weights(const LightTree::Node& node, std::size_t lane) const {
-    if (!each_) each_ = unpack<LightReceiverOf>(receivers_);
-    if (alone_lane_ != lane) alone_ = broadcast<LightReceiverOf>((*each_)[lane]), alone_lane_ = lane;
+    if (!alone_) {
+        const auto each = unpack<LightReceiverOf>(receivers_);
+        alone_.emplace();
+        for (std::size_t i = 0; i < count_; ++i) (*alone_)[i] = broadcast<LightReceiverOf>(each[i]);
+    }
+    std::array<Batch, light_tree_width / batch_size> of_children;
+    Batch sum(0.0f);
+    for (std::size_t i = 0; i < of_children.size(); ++i)
+        sum += of_children[i] = light_importance((*alone_)[lane], node.proxies.batch(i * batch_size)).reflected;
+    const Batch total(hadd(sum));
     Weights weights;
-    for (std::size_t first = 0; first < light_tree_width; first += batch_size)
-        light_importance(alone_, node.proxies.batch(first)).reflected.store_unaligned(&weights[first]);
-    const float total = std::accumulate(weights.begin(), weights.end(), 0.0f);
-    float sum = 0.0f;
-    for (float& weight : weights) weight = sum += not_lost(weight, total);
+    for (std::size_t i = 0; i < of_children.size(); ++i)
+        not_lost(of_children[i], total).store_unaligned(&weights[i * batch_size]);
+    std::partial_sum(weights.begin(), weights.end(), weights.begin());
     return weights;
 }
 
-/// Sends picks, whose u ascend, each to what its u falls into, and leaves what is left of u within it: calls visit(i,
-/// picks) for each that some choose. cumulative(i): the weight of what is before and of i, the last's all. Where that
-/// is 0, they find nothing and get probability 0.
-template <class Cumulative, class Visit>
-void LightChoice::distribute(std::size_t count, const Cumulative& cumulative, std::span<Pick> picks,
-                             const Visit& visit) {
-    const float total = cumulative(count - 1);
-    if (!can_choose(total)) {
-        for (Pick& pick : picks) pick.probability = 0.0f;
-        return;
-    }
-    std::size_t i = 0;
-    for (std::size_t first = 0, end; first < picks.size(); first = end) {
-        while (cumulative(i) <= picks[first].u * total) ++i;
-        const float before = i > 0 ? cumulative(i - 1) : 0.0f, weight = cumulative(i) - before;
-        for (end = first; end < picks.size() && picks[end].u * total < cumulative(i); ++end) {
-            picks[end].u = std::min((picks[end].u * total - before) / weight, below_one);
-            picks[end].probability *= weight / total;
-        }
-        visit(i, picks.subspan(first, end - first));
+/// Among the cut's nodes, all receivers at once.
+void LightChoice::choose_in_cut(Batch u, std::size_t k, std::span<Picks> picks) const {
+    const Batch total = load(cumulative_[cut_size_ - 1]), sought = u * total;
+    Batch place(0.0f);
+    for (std::size_t i = 0; i + 1 < cut_size_; ++i)
+        place += select(load(cumulative_[i]) <= sought, Batch(1.0f), Batch(0.0f));
+    const Lanes places = store(place), totals = store(total), u_lanes = store(u);
+    for (std::size_t lane = 0; lane < count_; ++lane) {
+        Pick& pick = picks[lane][k] = {u_lanes[lane], 1.0f, 0};
+        const auto i = static_cast<std::size_t>(places[lane]);
+        if (can_choose(totals[lane]))
+            pick.choose(i > 0 ? cumulative_[i - 1][lane] : 0.0f, cumulative_[i][lane], totals[lane], cut_[i]);
+        else
+            pick.find_nothing();
     }
 }
 
-/// Sends picks down to their lights.
-void LightChoice::descend(std::int32_t child, std::size_t lane, std::span<Pick> picks) const {
-    if (child < 0) {
-        for (Pick& pick : picks) pick.light = static_cast<std::size_t>(~child);
-        return;
+/// Moves those of a receiver's picks that are at nodes on to children of these: whether some are at nodes then.
+bool LightChoice::go_down(std::size_t lane, std::span<Pick> picks) const {
+    bool is_at_node = false;
+    for (std::size_t k = 0; k < picks.size();) {
+        const std::int32_t index = picks[k].child;
+        if (index < 0) {
+            ++k;
+            continue;
+        }
+        const LightTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
+        const Weights cumulative = cumulative_weights(node, lane);
+        const float total = cumulative[node.count - 1];
+        // Picks ascend: those of one node follow each other.
+        for (; k < picks.size() && picks[k].child == index; ++k) {
+            if (!can_choose(total)) {
+                picks[k].find_nothing();
+                continue;
+            }
+            const float sought = picks[k].u * total;
+            const auto i = static_cast<std::size_t>(
+                std::ranges::count_if(cumulative, [&](float weight) { return weight <= sought; }));
+            picks[k].choose(i > 0 ? cumulative[i - 1] : 0.0f, cumulative[i], total, node.child[i]);
+            is_at_node = is_at_node || picks[k].child >= 0;
+        }
     }
-    const LightTree::Node& node = tree_.nodes()[static_cast<std::size_t>(child)];
-    const Weights cumulative = cumulative_weights(node, lane);
-    distribute(
-        node.count, [&](std::size_t i) { return cumulative[i]; }, picks,
-        [&](std::size_t i, std::span<Pick> of_child) { descend(node.child[i], lane, of_child); });
+    return is_at_node;
 }
 
 void LightChoice::choose(const Batch& u, std::span<LightChoices> choices) const {
-    const Lanes u_lanes = store(u);
-    const auto n = static_cast<float>(choices.size());
-    std::array<Pick, max_light_samples> each;
-    const std::span<Pick> picks = std::span(each).first(choices.size());
-    for (std::size_t lane = 0; lane < count_; ++lane) {
-        for (std::size_t k = 0; k < picks.size(); ++k)
-            picks[k] = {std::min((static_cast<float>(k) + u_lanes[lane]) / n, below_one), 0, 1.0f};
-        distribute(
-            cut_size_, [&](std::size_t i) { return cumulative_[i][lane]; }, picks,
-            [&](std::size_t i, std::span<Pick> of_node) { descend(cut_[i], lane, of_node); });
-        for (std::size_t k = 0; k < picks.size(); ++k) {
-            choices[k].light[lane] = picks[k].light;
-            choices[k].probability[lane] = picks[k].probability;
+    std::array<Picks, batch_size> picks;
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+        const Batch first(static_cast<float>(k)), count(static_cast<float>(choices.size()));
+        choose_in_cut(min((first + u) / count, Batch(below_one)), k, picks);
+    }
+    // Level by level, so that the weights of one node need not wait for what is chosen by those of another.
+    for (bool is_at_node = true; is_at_node;) {
+        is_at_node = false;
+        for (std::size_t lane = 0; lane < count_; ++lane)
+            is_at_node |= go_down(lane, std::span(picks[lane]).first(choices.size()));
+    }
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+        for (std::size_t lane = 0; lane < count_; ++lane) {
+            choices[k].light[lane] = static_cast<std::size_t>(~picks[lane][k].child);
+            choices[k].probability[lane] = picks[lane][k].probability;
         }
     }
 }

@@ -34,12 +34,12 @@ class LightChoice {
 
    private:
     struct Pick;
+    using Picks = std::array<Pick, max_light_samples>;  ///< of a receiver
     using Weights = std::array<float, light_tree_width>;
 
-    template <class Cumulative, class Visit>
-    static void distribute(std::size_t count, const Cumulative& cumulative, std::span<Pick> picks, const Visit& visit);
     Weights cumulative_weights(const LightTree::Node& node, std::size_t lane) const;
-    void descend(std::int32_t child, std::size_t lane, std::span<Pick> picks) const;
+    void choose_in_cut(Batch u, std::size_t k, std::span<Picks> picks) const;
+    bool go_down(std::size_t lane, std::span<Pick> picks) const;
 
     const LightTree& tree_;
     LightReceiver receivers_;
@@ -47,9 +47,7 @@ class LightChoice {
     std::array<std::int32_t, max_cut_nodes> cut_;  ///< nodes, or ~light, in the tree's order
     std::size_t cut_size_ = 1;
     std::array<Lanes, max_cut_nodes> cumulative_;  ///< what they weigh for each receiver, with all before them
-    mutable std::optional<std::array<LightReceiverOf<float>, batch_size>> each_;
-    mutable std::size_t alone_lane_ = batch_size;  ///< which of them alone_ is, in all lanes
-    mutable LightReceiver alone_;
+    mutable std::optional<std::array<LightReceiver, batch_size>> alone_;  ///< each receiver in all lanes
 };
 
 /// A light for a place in fog, and with which probability: 0 where there is none.

@@ -166,9 +166,10 @@ struct Scatter {
     }
 };
 
-struct Part {
+/// Lights below one child of a node, and what that child, if it is a node, has as children.
+struct Group {
     std::span<std::uint32_t> lights;
-    float scatter;
+    std::vector<Group> children;  ///< none: a light by itself
 };
 
 }  // namespace
@@ -181,20 +182,50 @@ class LightTree::Builder {
         for (const Light& light : lights) moments_.push_back(moments_of(light));
     }
 
-    std::int32_t build(std::span<std::uint32_t> indices) {
+    void build(std::span<std::uint32_t> indices) {
+        const auto suns = std::partition(indices.begin(), indices.end(), [&](std::uint32_t i) { return is_sun(i); });
+        add_node(halves_joined(indices, static_cast<std::size_t>(suns - indices.begin())));
+    }
+
+   private:
+    bool is_sun(std::uint32_t i) const { return std::holds_alternative<SunLight>(lights_[i]); }
+
+    /// What the node above these lights has as children. Lights are cut in two down to single ones; on the way back
+    /// the halves are joined as long as one node holds both. So most nodes are nearly full: of one that is, eight
+    /// children are weighed at once for the price of one.
+    std::vector<Group> grouped(std::span<std::uint32_t> lights) const {
+        if (lights.size() == 1) return {Group{lights, {}}};
+        return halves_joined(lights, cut(lights));
+    }
+
+    /// Of the first lights and of those after them.
+    std::vector<Group> halves_joined(std::span<std::uint32_t> lights, std::size_t count) const {
+        if (count == 0 || count == lights.size()) return grouped(lights);
+        std::vector<Group> first = grouped(lights.first(count)), second = grouped(lights.subspan(count));
+        if (first.size() + second.size() > light_tree_width) {
+            const auto make_node = [](std::vector<Group>& groups, std::span<std::uint32_t> of) {
+                if (groups.size() > light_tree_width / 2) groups = {Group{of, std::move(groups)}};
+            };
+            make_node(first, lights.first(count)), make_node(second, lights.subspan(count));
+        }
+        std::ranges::move(second, std::back_inserter(first));
+        return first;
+    }
+
+    std::int32_t add_node(const std::vector<Group>& groups) {
         const auto index = static_cast<std::int32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
-        const std::vector<std::span<std::uint32_t>> parts = split(indices);
         Node node;
-        node.count = parts.size();
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            if (parts[i].size() == 1) {
-                node.proxies.set(i, proxy_of(lights_[parts[i][0]]));
-                node.child[i] = ~static_cast<std::int32_t>(parts[i][0]);
-                tree_.leaves_[parts[i][0]] = {index, i};
+        node.count = groups.size();
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            const std::span<const std::uint32_t> lights = groups[i].lights;
+            if (lights.size() == 1) {
+                node.proxies.set(i, proxy_of(lights_[lights[0]]));
+                node.child[i] = ~static_cast<std::int32_t>(lights[0]);
+                tree_.leaves_[lights[0]] = {index, i};
             } else {
-                node.proxies.set(i, proxy_of(moments_, parts[i], is_sun(parts[i][0])));
-                node.child[i] = build(parts[i]);
+                node.proxies.set(i, proxy_of(moments_, lights, is_sun(lights[0])));
+                node.child[i] = add_node(groups[i].children);
                 tree_.nodes_[static_cast<std::size_t>(node.child[i])].parent = index;
                 tree_.nodes_[static_cast<std::size_t>(node.child[i])].place_in_parent = i;
             }
@@ -202,33 +233,6 @@ class LightTree::Builder {
         node.parent = tree_.nodes_[static_cast<std::size_t>(index)].parent;
         tree_.nodes_[static_cast<std::size_t>(index)] = node;
         return index;
-    }
-
-   private:
-    bool is_sun(std::uint32_t i) const { return std::holds_alternative<SunLight>(lights_[i]); }
-
-    /// Suns apart from the rest; then the part that says least of where its light comes from is cut in two, until
-    /// there are as many as a node has children, or single lights.
-    std::vector<std::span<std::uint32_t>> split(std::span<std::uint32_t> indices) const {
-        const auto suns = std::partition(indices.begin(), indices.end(), [&](std::uint32_t i) { return is_sun(i); });
-        const auto sun_count = static_cast<std::size_t>(suns - indices.begin());
-        std::vector<Part> parts;
-        for (const auto& lights : {indices.first(sun_count), indices.subspan(sun_count)}) {
-            if (!lights.empty()) parts.push_back({lights, scatter_of(lights)});
-        }
-        while (parts.size() < light_tree_width) {
-            const auto widest = std::max_element(parts.begin(), parts.end(), [](const Part& x, const Part& y) {
-                return std::pair(x.lights.size() > 1, x.scatter) < std::pair(y.lights.size() > 1, y.scatter);
-            });
-            const std::span<std::uint32_t> whole = widest->lights;
-            if (whole.size() < 2) break;
-            const std::size_t count = cut(whole);
-            *widest = {whole.first(count), scatter_of(whole.first(count))};
-            parts.insert(widest + 1, {whole.subspan(count), scatter_of(whole.subspan(count))});
-        }
-        std::vector<std::span<std::uint32_t>> result;
-        for (const Part& part : parts) result.push_back(part.lights);
-        return result;
     }
 
     /// Sorts lights into two parts, along the longest side, where light scatters least within both; how many are in
@@ -265,12 +269,6 @@ class LightTree::Builder {
             std::partition(lights.begin(), lights.end(), [&](std::uint32_t i) { return bin_of(i) < best; });
         const auto count = static_cast<std::size_t>(second - lights.begin());
         return count > 0 && count < lights.size() ? count : lights.size() / 2;
-    }
-
-    float scatter_of(std::span<const std::uint32_t> lights) const {
-        Scatter sum;
-        for (const std::uint32_t i : lights) sum.add(moments_[i]);
-        return sum.total();
     }
 
     LightTree& tree_;
