@@ -7,7 +7,7 @@ import atexit
 import addon_utils
 import bpy
 
-from . import engine, light_panels, panels, properties
+from . import engine, light_panels, panels, properties, sampling_presets
 from .chart import operators as chart_operators
 from .ndf import operators as ndf_operators
 from .ndf import panel as ndf_panel
@@ -22,7 +22,7 @@ bl_info = {
     "category": "Render",
 }
 
-_MODULES = (properties, engine, chart_operators, panels, light_panels, ndf_operators, ndf_panel)
+_MODULES = (properties, engine, chart_operators, sampling_presets, panels, light_panels, ndf_operators, ndf_panel)
 
 
 def register() -> None:

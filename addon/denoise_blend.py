@@ -3,8 +3,8 @@
 With v the variance of the noisy picture and r the squared difference of the two, both as means over pixels close by,
 the denoised one is off by r - v, and the mix with the least squared error takes (r - v) / r of the noisy one, as
 [James61] shrinks estimates by their own spread. All of it is over squared light, by which eyes see it. Where a picture
-is all detail the denoised one has much of the same noise, r is less by that, and r - v would tell of too little: half
-of v is subtracted, which leaves a third of the noisy picture where the denoised one is right.
+is all detail the denoised one has much of the same noise, r is less by that, and r - v would tell of too little: only
+a part of v is subtracted, for which 0.3 of the noisy picture stays where the denoised one is right.
 
 [James61] James and Stein, "Estimation with Quadratic Loss".
 """
@@ -18,7 +18,7 @@ Pixels = NDArray[np.float32]
 
 _DARK = 0.1  # where light is less, noise is seen as there
 _REACH_PX = 2
-_TOLD = 0.5  # of the noise: so much of it lies between the noisy and the denoised picture, at the least
+_TOLD = 0.6  # of the noise: so much of it lies between the noisy and the denoised picture, at the least
 
 
 def relative_noise(variance: Pixels, picture: Pixels) -> Pixels:

@@ -11,6 +11,7 @@ from .chart import operators as chart_operators
 from .engine import PivotRenderEngine
 from .export.optics import panorama_names, panorama_settings
 from .passes import PASSES
+from .sampling_presets import PIVOT_PT_sampling_presets
 
 _ENGINE = PivotRenderEngine.bl_idname
 
@@ -109,6 +110,9 @@ def draw_denoising(layout: bpy.types.UILayout, pivot: Any) -> None:
 class PIVOT_RENDER_PT_sampling(PivotPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
+    def draw_header_preset(self, _: bpy.types.Context) -> None:
+        PIVOT_PT_sampling_presets.draw_panel_header(self.layout)
+
     def draw(self, context: bpy.types.Context) -> None:
         layout = columns(self)
         pivot = context.scene.pivot
@@ -154,6 +158,7 @@ class PIVOT_RENDER_PT_bounce_limits(PivotPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column = columns(self).column(align=True)
+        column.active = context.scene.pivot.max_bounces > 0
         for kind in ("diffuse", "glossy", "transmission", "volume"):
             column.prop(context.scene.pivot, f"{kind}_bounces")
 
