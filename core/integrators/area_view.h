@@ -7,7 +7,8 @@
 
 namespace pivot {
 
-/// An area light from a lit point: places are center + x half_u + y half_v.
+/// An area light from a lit point: places are center + x half_u + y half_v. Of one with a narrow spread, the part
+/// around what shines on the point.
 template <class T>
 struct AreaView {
     Vec3<T> center, half_u, half_v;
@@ -15,6 +16,19 @@ struct AreaView {
     T parallelogram_m2;  ///< |half_u x half_v|
     Mask<T> ellipse, triangle;
     T inverse_tan_spread;
+    Vec2<T> part_middle = Vec2<T>(T(0), T(0)), part_size = Vec2<T>(T(1), T(1));  ///< of the light's own places
+    Mask<T> may_miss = T(1) < T(0);  ///< whether places of the part may lie beside the light: an ellipse
+
+    /// A place of the view, from the light's own.
+    Vec2<T> from_own(const Vec2<T>& own) const {
+        return {(own.x - part_middle.x) / part_size.x, (own.y - part_middle.y) / part_size.y};
+    }
+    /// Whether the light is there, at a place of the view.
+    Mask<T> is_on(const Vec2<T>& place) const {
+        if (!any(may_miss)) return T(0) < T(1);
+        const T x = part_middle.x + place.x * part_size.x, y = part_middle.y + place.y * part_size.y;
+        return !may_miss || sqr(x) + sqr(y) <= T(1);
+    }
 
     /// About what a spread leaves of the light, never nothing: for samples to be drawn by.
     T spread_weight(const Vec3<T>& wi) const {
@@ -70,6 +84,37 @@ inline AreaLightOf<float> numbers_of(const AreaLight& light) {
             light.inverse_tan_spread};
 }
 
+/// Leaves of the view of a light with a spread the parallelogram around the circle that shines on the point.
+template <class T>
+void narrow(AreaView<T>& view) {
+    const T height = -dot(view.center, view.normal), radius = height / max(view.inverse_tan_spread, tiny<T>);
+    const Vec3<T> to_foot = -height * view.normal - view.center;
+    const Vec3<T> across_u = cross(view.half_v, view.normal), across_v = cross(view.normal, view.half_u);
+    const T per_u = inverse(dot(view.half_u, across_u)), per_v = inverse(dot(view.half_v, across_v));
+    struct Span {
+        T middle, size;
+    };
+    const auto span = [&](const Vec3<T>& across, const T& per) {
+        const T at = dot(to_foot, across) * per, reach = radius * length(across) * abs(per);
+        const T low = max(at - reach, T(-1)), high = min(at + reach, T(1));
+        return Span{T(0.5f) * (low + high), T(0.5f) * (high - low)};
+    };
+    const Span x = span(across_u, per_u), y = span(across_v, per_v);
+    // Where all of an ellipse is fewer places than the part, it stays an ellipse; where none shines, it stays all.
+    const T most =
+        select(view.ellipse, T(relative_area(AreaShape::ellipse) / relative_area(AreaShape::parallelogram)), T(1));
+    const Mask<T> is_narrower = view.inverse_tan_spread > T(0) && !view.triangle && x.size > T(1e-6f) &&
+                                y.size > T(1e-6f) && x.size * y.size < most;
+    view.part_middle = {select(is_narrower, x.middle, T(0)), select(is_narrower, y.middle, T(0))};
+    view.part_size = {select(is_narrower, x.size, T(1)), select(is_narrower, y.size, T(1))};
+    view.may_miss = view.ellipse && is_narrower;
+    view.ellipse = view.ellipse && !is_narrower;
+    view.center += view.part_middle.x * view.half_u + view.part_middle.y * view.half_v;
+    view.half_u = view.half_u * view.part_size.x;
+    view.half_v = view.half_v * view.part_size.y;
+    view.parallelogram_m2 *= view.part_size.x * view.part_size.y;
+}
+
 template <class T>
 AreaView<T> view_from(const AreaLightOf<T>& light, const SurfacePointOf<T>& point) {
     AreaView<T> view{.center = point.frame.to_local(light.center - point.position),
@@ -80,6 +125,7 @@ AreaView<T> view_from(const AreaLightOf<T>& light, const SurfacePointOf<T>& poin
                      .ellipse = light.is_ellipse > T(0),
                      .triangle = light.is_triangle > T(0),
                      .inverse_tan_spread = light.inverse_tan_spread};
+    if (any(light.inverse_tan_spread > T(0))) narrow(view);
     // A triangle has two sides.
     view.normal = select(view.triangle && dot(view.center, view.normal) > T(0), -view.normal, view.normal);
     return view;

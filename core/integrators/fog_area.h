@@ -38,6 +38,7 @@ class FogAreaView {
                   .ellipse = T(light.shape == AreaShape::ellipse ? 1.0f : 0.0f) > T(0),
                   .triangle = T(light.shape == AreaShape::triangle ? 1.0f : 0.0f) > T(0),
                   .inverse_tan_spread = T(light.inverse_tan_spread)};
+        if (light.inverse_tan_spread > 0.0f) narrow(light_);
         direction_ = frame_.to_local(direction);
         forward_ = g < 0.0f ? -direction_ : direction_;
         per_width_ = std::sqrt(std::abs(g)) / (1.0f - std::abs(g));
@@ -74,7 +75,8 @@ class FogAreaView {
                 const auto [y, height] = warp.place(T(j.x));
                 const Vec3<T> d = light_.center + x * light_.half_u + y * light_.half_v;
                 const T per_distance = inverse_sqrt(max(dot(d, d), tiny<T>));
-                const T omega = plane_m3 * (width * height) * (per_distance * sqr(per_distance));
+                const T omega = select(light_.is_on({x, y}), plane_m3 * (width * height), T(0)) *
+                                (per_distance * sqr(per_distance));
                 sum += value(d * per_distance) * (omega * T(i.weight * j.weight));
             }
         }
@@ -140,12 +142,16 @@ class FogAreaSampler {
         const T inverse_tan_spread = view_.light().inverse_tan_spread;
         return {view_.frame().to_world(seen.wi), seen.distance_m,
                 select(seen.omega_per_xy > T(0), at.pdf / max(seen.omega_per_xy, tiny<T>), T(0)),
-                any(inverse_tan_spread > T(0)) ? spread_falloff(inverse_tan_spread, seen.wi.z) : T(1)};
+                any(inverse_tan_spread > T(0))
+                    ? select(view_.light().is_on(at.place), spread_falloff(inverse_tan_spread, seen.wi.z), T(0))
+                    : T(1)};
     }
-    /// Density of sample() at a place (x, y).
-    T pdf_omega(const Vec2<T>& place) const {
+    /// Density of sample() at a place (x, y) of the light.
+    T pdf_omega(const Vec2<T>& own) const {
+        const Vec2<T> place = view_.light().from_own(own);
         const T omega_per_xy = see(view_.light(), place).omega_per_xy;
-        return select(omega_per_xy > T(0), grid_.pdf(view_.light(), place) / max(omega_per_xy, tiny<T>), T(0));
+        const Mask<T> is_there = omega_per_xy > T(0) && abs(place.x) <= T(1) && abs(place.y) <= T(1);
+        return select(is_there, grid_.pdf(view_.light(), place) / max(omega_per_xy, tiny<T>), T(0));
     }
 
    private:

@@ -175,7 +175,7 @@ LaneSamples sample_area_lights(const VertexBatch& vertices, const std::array<con
     lit.sample.reach_m = seen.distance_m * Batch(shadow_reach);
     const Batch cosine = max(-dot(seen.wi, view.normal), tiny<Batch>);
     lit.sample.reach_m -= select(is_triangle, (light.surface_error_m + point.error_m) / cosine, zero);
-    const BatchMask faces = reached && vertices.is_open_to(lit.sample.wi);
+    const BatchMask faces = reached && vertices.is_open_to(lit.sample.wi) && view.is_on(place);
     lit.pdf_omega = pdf_xy / max(seen.omega_per_xy, tiny<Batch>);
     const Vec3b open(seen.wi.x, seen.wi.y, select(transmits, seen.wi.z, max(seen.wi.z, Batch(1e-6f))));
     lit.sample.radiance = eval(surface, open) * light.radiance * select(faces, seen.omega_per_xy / pdf_xy, zero);

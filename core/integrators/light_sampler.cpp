@@ -121,7 +121,7 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
     if (area_view_) {
         const auto [at, pdf] = with_area([&](const auto& area) { return area.sample(u); });
         const SeenPlace<float> seen = see(*area_view_, at);
-        if (!(seen.omega_per_xy > 0.0f)) return std::nullopt;
+        if (!(seen.omega_per_xy > 0.0f) || !area_view_->is_on(at)) return std::nullopt;
         const auto& light = std::get<AreaLight>(light_);
         const float falloff = light.inverse_tan_spread > 0.0f
                                   ? spread_falloff(light.inverse_tan_spread, -dot(seen.wi, area_view_->normal))
@@ -146,7 +146,8 @@ std::optional<LightPoint> LightSampler::sample(const Vec2f& u) const {
 float LightSampler::pdf_omega(const LightPoint& place) const {
     if (area_view_) {
         const auto& light = std::get<AreaLight>(light_);
-        const Vec2f at = area_coordinates(light, point_.position + place.distance_m * place.wi);
+        const Vec2f at = area_view_->from_own(area_coordinates(light, point_.position + place.distance_m * place.wi));
+        if (std::max(std::abs(at.x), std::abs(at.y)) > 1.0f) return 0.0f;
         const float pdf = with_area([&](const auto& area) { return area.pdf(at); });
         return pdf / see(*area_view_, at).omega_per_xy;
     }

@@ -70,23 +70,29 @@ def test_rays_meet_what_is_there_for_them() -> None:
     assert brightness(ABOVE, HALF, lid=["SHADOW", "DIFFUSE"], **bounced) == direct
 
 
-@pytest.mark.parametrize("integrator", ["MONTE_CARLO", "ANALYTIC"])
-@pytest.mark.parametrize("degrees", [10, 60, 150])
-def test_a_spread_keeps_the_power(degrees: float, integrator: str) -> None:
+@pytest.mark.parametrize("ellipse", [False, True])
+@pytest.mark.parametrize(
+    ("degrees", "integrator"),
+    [
+        *((degrees, "MONTE_CARLO") for degrees in (0, 1, 10, 60, 150)),
+        *((degrees, "ANALYTIC") for degrees in (10, 60, 150)),
+    ],
+)
+def test_a_spread_keeps_the_power(degrees: float, integrator: str, ellipse: bool) -> None:
     """All of it arrives on the ground, within a light's width and what the spread opens to."""
     scene = pivot_core.Scene()
     ground = scene.add_material("ground", pivot_core.Material(**HALF))
     scene.add_instances("ground", add_plane(scene), place(), [ground])
     spread_rad = np.radians(degrees)
-    scene.add_light(
-        "light", pivot_core.AreaLight((0, 0, 1), (0, 0.5, 0), (0.5, 0, 0), (1, 1, 1), spread_rad=spread_rad)
-    )
+    shape = {"half_u": (0, 0.5, 0), "half_v": (0.5, 0, 0), "ellipse": ellipse}
+    scene.add_light("light", pivot_core.AreaLight((0, 0, 1), radiance=(1, 1, 1), spread_rad=spread_rad, **shape))
     distance_m, pixels, half_width_m = 200, 64, 0.6 + np.tan(spread_rad / 2)
     set_camera(scene, (0, 0.01, distance_m), size=(pixels, pixels), half_width=half_width_m / distance_m)
     radiance = render(scene, samples=64, max_bounces=0, integrator=integrator)[..., 0]
     pixel_m2 = (2 * half_width_m / pixels) ** 2
     power_w = float(radiance.sum()) * pixel_m2 * np.pi / HALF["diffuse"][0]
-    assert power_w == pytest.approx(np.pi * 1 * 1, rel=0.01)  # of radiance 1 and 1 m^2
+    area_m2 = np.pi / 4 if ellipse else 1
+    assert power_w == pytest.approx(np.pi * 1 * area_m2, rel=0.01)  # of radiance 1
 
 
 @pytest.mark.parametrize("integrator", ["MONTE_CARLO", "ANALYTIC"])
