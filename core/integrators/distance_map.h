@@ -43,15 +43,18 @@ class DistanceMap {
     T distance_m(const T& u) const {
         if (angular_share_ == 0.0f) return within(by_transmittance(u));
         if (angular_share_ == 1.0f) return within(by_angle(u));
-        // The share of angles at the place, by Newton's method within what bounds it.
-        T v = u, low(0), high(1);
+        // The share of angles at the place, by Newton's method within what bounds it: where the medium is dense, one of
+        // the two shares is nearly all there is on one side of the place, and starts close to it.
+        const T of_angles(angular_share_), of_transmittance(1.0f - angular_share_);
+        const T by_either = min(u / of_angles, angle_share(by_transmittance(min(u / of_transmittance, T(1)))));
+        T low = max((u - of_transmittance) / of_angles, T(0)), high = min(max(by_either, low), T(1));
+        T v = select(u < of_transmittance, high, low);
         for (int i = 0; i < 10; ++i) {
             const T t = within(by_angle(v));
-            const T excess = T(angular_share_) * v + T(1.0f - angular_share_) * transmittance_share(t) - u;
+            const T excess = of_angles * v + of_transmittance * transmittance_share(t) - u;
             low = select(excess < T(0), v, low);
             high = select(excess > T(0), v, high);
-            const T slope = T(angular_share_) +
-                            T(1.0f - angular_share_) * transmittance_density(t) / max(angle_density(t), tiny<T>);
+            const T slope = of_angles + of_transmittance * transmittance_density(t) / max(angle_density(t), tiny<T>);
             const T next = v - excess / slope;
             v = select(next > low && next < high, next, T(0.5f) * (low + high));
         }
@@ -84,6 +87,11 @@ class DistanceMap {
         constexpr float below_right_angle = 1.570796f;
         const T y = tan(min(T(near_angle_) + v * T(angles_), T(below_right_angle))) / T(k_);
         return T(along_m_) + T(0.5f * off_m_) * (y - T(1) / max(y, tiny<T>));
+    }
+    /// What by_angle() takes there.
+    template <class T>
+    T angle_share(const T& t) const {
+        return min(max((atan(T(k_) * half_tangent(within(t))) - T(near_angle_)) / T(angles_), T(0)), T(1));
     }
     template <class T>
     T angle_density(const T& t) const {

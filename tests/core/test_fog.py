@@ -113,6 +113,24 @@ def test_the_quadrature_finds_the_airlight_of_thin_fog() -> None:
     np.testing.assert_allclose(radiance((0, -3, 0), (0, 0, 0), [thin], [light]), truth, rtol=1e-4)
 
 
+@pytest.mark.parametrize("per_m", [1e2, 1e3, 1e4, 1e5])
+def test_fog_as_dense_as_a_wall_scatters_at_its_face(per_m: float) -> None:
+    """As a half-space does, albedo phase irradiance cos_i / (cos_i + cos_o), all within a thousandth of the lamp's
+    distance."""
+    eye, lamp = np.array((-0.2, -0.3, 3.0)), Sphere((-1.0, 1.0, 3.0), 0.05, (3.0, 2.0, 1.0))
+    fog = replace(
+        CYAN, sigma_s=(0.8 * per_m, 0.5 * per_m, 0.3 * per_m), sigma_a=(0.2 * per_m, 0.5 * per_m, 0.7 * per_m)
+    )
+    place = eye * (1 / 3, 1 / 3, 1 / 3)  # towards the origin, on the box's upper side
+    to_lamp = np.array(lamp.position) - place
+    cos_o, cos_i = eye[2] / np.linalg.norm(eye), to_lamp[2] / np.linalg.norm(to_lamp)
+    irradiance = np.array(lamp.intensity) / (to_lamp @ to_lamp)
+    truth = np.array((0.8, 0.5, 0.3)) / (4 * np.pi) * irradiance * cos_i / (cos_i + cos_o)
+    found = estimate(scene_of([fog], [lamp]), tuple(eye), (0.0, 0.0, 0.0))
+    rounding = 2 * float(np.spacing(np.float32(2))) * per_m  # of distances from the eye and from the lamp
+    assert_is(found, truth, tolerance=2 / per_m + 3e-3 + rounding)
+
+
 def test_no_sun_arrives_through_endless_fog() -> None:
     scene = scene_of([HAZE], [LIGHTS["sun"]])
     assert_is(estimate(scene, (0, 0, 0), (0, 1, 0)), BLACK)
