@@ -72,9 +72,9 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
             if (fog) path.throughput *= fog->cross(part_of(camera_rays[i], from_m, distance_m), 0, path, part++);
             from_m = distance_m;
         };
-        const auto show = [&](const RayHit& hit, std::uint32_t material, float shown) {
+        const auto show = [&](const RayHit& hit, std::uint32_t material, float opacity, float shown) {
             if (scene.has_holdouts() && scene.is_holdout(hit)) {
-                if (work.settings.transparent_film) sample.alpha -= mean_component(path.throughput) * shown;
+                if (work.settings.transparent_film) sample.alpha -= mean_component(path.throughput) * opacity * shown;
                 return;
             }
             path.arrival.hit = hit;
@@ -95,7 +95,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
                 add_to_group(work, i, scene.light_group_of(passage.hit), emitted);
             } else if (passage.shown > 0.0f) {
                 path.emission_weight = &passage == told ? 1.0f : 0.0f;
-                show(passage.hit, passage.material, passage.shown);
+                show(passage.hit, passage.material, passage.opacity, passage.shown);
             }
             path.throughput *= passage.passed;
         }
