@@ -12,9 +12,9 @@ namespace pivot {
 namespace catcher_pass {
 inline constexpr std::size_t alone = 0,  ///< light of catchers, as if there were nothing else
     among_all = 4,                       ///< and as it is
-    matte = 1,                           ///< light of all camera rays that meet none
+    matte = 1,                           ///< light of all camera rays that meet none, and of media before one
     shares = 2,                          ///< the alpha of these, and the share of rays that meet one
-    world = 3,                           ///< the world's, of rays that meet one
+    world = 3,                           ///< the world's, through these media, of rays that meet one
     count = 5;
 }  // namespace catcher_pass
 

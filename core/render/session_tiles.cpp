@@ -320,7 +320,7 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         trace_paths(*scene_, settings_, rays, samplers, samples, passes, named);
     if (catchers_)
         tell_catchers(
-            *scene_, settings_, rays, samples,
+            *scene_, settings_, rays, samplers, samples,
             [&](std::span<const std::size_t> which, std::span<Sample> of_catchers) {
                 follow_among_catchers(indexed, samplers, which, of_catchers);
             },

@@ -22,7 +22,6 @@ std::shared_ptr<Scene> Scene::only_shadow_catchers() const {
     scene->world_ = world_;
     scene->environment_ = environment_;
     scene->world_rules_ = world_rules_;
-    scene->world_medium_ = world_medium_;
     scene->set_camera(camera_);
     return scene;
 }

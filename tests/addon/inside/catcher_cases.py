@@ -11,7 +11,14 @@ import parts
 from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
-CASES = {"over_world": (False, False), "over_nothing": (True, False), "beside": (True, True)}
+# Whether the film is transparent, whether there is a pass of the catcher, and the density of the world's fog.
+CASES = {
+    "over_world": (False, False, 0.0),
+    "over_nothing": (True, False, 0.0),
+    "beside": (True, True, 0.0),
+    "foggy_world": (False, False, 0.04),
+    "foggy": (True, False, 0.04),
+}
 
 
 def main(folder: Path) -> Any:
@@ -25,8 +32,13 @@ def main(folder: Path) -> Any:
     panel.rotation_euler = (0, math.radians(-90), 0)
     panel.scale = (0.5, 0.5, 1)
     parts.light("key", "POINT", (-3, -2, 3), energy=200, **SPHERE)
-    parts.world((0.2, 0.25, 0.3))
-    for name, (is_transparent, has_pass) in CASES.items():
+    tree = parts.world((0.2, 0.25, 0.3)).node_tree
+    scatter = tree.nodes.new("ShaderNodeVolumeScatter")
+    bpy.context.scene.cycles.volume_bounces = 1
+    for name, (is_transparent, has_pass, density) in CASES.items():
+        scatter.inputs["Density"].default_value = density
+        if density:
+            tree.links.new(scatter.outputs[0], tree.nodes["World Output"].inputs["Volume"])
         bpy.context.scene.render.film_transparent = is_transparent
         bpy.context.view_layer.cycles.use_pass_shadow_catcher = has_pass
         _cycles(folder / f"{name}_CYCLES.exr", 1, file_format="OPEN_EXR_MULTILAYER")
@@ -35,4 +47,5 @@ def main(folder: Path) -> Any:
             pivot = bpy.context.scene.pivot
             pivot.integrator, pivot.indirect = "ANALYTIC", "VSGL"
             _pivot(folder / f"{name}_ANALYTIC.exr", 1, "JOINT", 8, file_format="OPEN_EXR_MULTILAYER")
+            pivot.integrator = "MONTE_CARLO"
     return list(CASES)
