@@ -209,7 +209,14 @@ _LIGHTS = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
 
 
 def _warn_of_uneven_scale(owner: str, data: Any, object_to_world: NDArray[np.float64], reporter: Reporter) -> None:
-    """Cycles' cones are as elliptic as their object's scale."""
-    scale = np.linalg.norm(object_to_world[:3, :3], axis=0)
+    """Cycles' cones are as elliptic as their object's scale, and its sheared panels are neither of both shapes."""
+    axes = object_to_world[:3, :3]
+    scale = np.linalg.norm(axes, axis=0)
     if data.type == "SPOT" and not np.allclose(scale, scale.mean(), rtol=1e-3):
         reporter.warn(f"{owner}: an uneven Scale is not supported, the cone is round and as wide as its Spot Size")
+    cosines = (axes.T @ axes) / np.maximum(np.outer(scale, scale), 1e-30)
+    if data.type == "AREA" and np.abs(cosines - np.diag(np.diag(cosines))).max() > 1e-3:
+        reporter.warn(
+            f"{owner}: its transform is sheared, it shines from the slanted shape as a mesh would. "
+            "Fix: give its parents an even Scale"
+        )

@@ -137,6 +137,8 @@ def test_what_is_left_out_is_said_once_a_job(host: Host, cases: Any) -> None:
     said = [
         "light 'unseen': Multiple Importance Sample is not supported, mirrors show it all the same",
         "light 'oval': an uneven Scale is not supported, the cone is round and as wide as its Spot Size",
+        "light 'slanted': its transform is sheared, it shines from the slanted shape as a mesh would. "
+        "Fix: give its parents an even Scale",
         "object 'panel', material 'glow': in the analytic integrator its triangles light others by a mean of each, "
         "in grey. Fix: use Monte Carlo",
         "object 'pane of window', material 'window': in the analytic integrator lamps do not shine through its rough "

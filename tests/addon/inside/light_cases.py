@@ -79,6 +79,12 @@ def _reports() -> Any:
     parts.camera()
     parts.light("oval", "SPOT").scale = (1, 2, 1)
     parts.light("even", "SPOT").scale = (2, 2, 2)
+    parent = parts.link("stretched parent")
+    parent.scale = (1, 2, 1)
+    for name, turn in (("slanted", 0.6), ("straight", 0.0)):
+        panel = parts.light(name, "AREA")
+        panel.rotation_euler = (0, 0, turn)
+        panel.parent = parent
     parts.light("unseen", "POINT").data.cycles.use_multiple_importance_sampling = False
     bpy.context.scene.cycles.sample_clamp_direct = 1.0
     glow, emission = parts.shaded("glow", "ShaderNodeEmission")
