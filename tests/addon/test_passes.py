@@ -11,28 +11,9 @@ import pytest
 from beside_cycles import FLIP, flip
 from blender_host import Host
 from exr import passes_by_name
+from pass_names import LIGHT, Passes, colored, with_old_names
 
-LIGHT = {
-    f"{kind}{part}": f"{kind}Col" for kind in ("Diff", "Gloss", "Trans") for part in ("Dir", "Ind")
-}  # and what it is to be multiplied by
 DATA = ("DiffCol", "TransCol", "Emit", "Env", "UV", "Mist", "AO")
-NAMES_5_0 = {
-    "DiffDir": "Diffuse Direct",
-    "DiffInd": "Diffuse Indirect",
-    "DiffCol": "Diffuse Color",
-    "GlossDir": "Glossy Direct",
-    "GlossInd": "Glossy Indirect",
-    "GlossCol": "Glossy Color",
-    "TransDir": "Transmission Direct",
-    "TransInd": "Transmission Indirect",
-    "TransCol": "Transmission Color",
-    "Emit": "Emission",
-    "Env": "Environment",
-    "AO": "Ambient Occlusion",
-    "IndexOB": "Object Index",
-    "IndexMA": "Material Index",
-}
-Passes = dict[str, np.ndarray]
 
 
 @pytest.fixture(scope="module")
@@ -53,20 +34,14 @@ def headers(folder: Path) -> dict[str, dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def pictures(folder: Path) -> dict[str, Passes]:
-    old_names = {new: old for old, new in NAMES_5_0.items()}
     return {
-        engine: {old_names.get(name, name): values for name, values in passes_by_name(folder / f"{engine}.exr").items()}
+        engine: with_old_names(passes_by_name(folder / f"{engine}.exr"))
         for engine in ("CYCLES", "MONTE_CARLO", "ANALYTIC")
     }
 
 
-def colored(passes: Passes, name: str) -> np.ndarray:
-    return passes[name] * passes[LIGHT[name]] if name in LIGHT else passes[name]
-
-
 @pytest.mark.parametrize("name", [*LIGHT, *DATA])
 def test_passes_are_cycles(host: Host, pictures: dict[str, Passes], name: str) -> None:
-    """Light times its colour: alone it has no meaning where a pixel sees little of what reflects it."""
     if host.version < (4, 0) and name == "TransCol":
         pytest.skip("Cycles' colour of glass has no Fresnel in it there")
     cycles, ours = (colored(pictures[engine], name) for engine in ("CYCLES", "MONTE_CARLO"))
