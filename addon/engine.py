@@ -147,8 +147,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             context = known
             if context is None:
                 self.update_stats("", "Exporting the scene")
-                say = _say_nothing if self.is_preview else self.report
-                reporter = Reporter(say, self.said_in_job)
+                say, said = (_say_nothing, set()) if self.is_preview else (self.report, self.said_in_job)
+                reporter = Reporter(say, said)
                 cache = self.preview_images if self.is_preview else self.images
                 context = export_scene(native, depsgraph, reporter, self._check_cancel, cache, frame=shown)
             motion = None
@@ -229,6 +229,8 @@ class PivotRenderEngine(bpy.types.RenderEngine):
             reporter.warn(f"a sample was not finite and was left out: {sample}")
         if self.strict:
             reporter.refuse()
+        if self.is_preview:
+            return
         self.frame_count.samples = max(self.frame_count.samples, samples)
         self.frame_count.samples_done.append(session.samples_done)
         if session.virtual_lights[0] > 0:

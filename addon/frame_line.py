@@ -48,7 +48,7 @@ def other_engine_line(scene: bpy.types.Scene, command_line: list[str]) -> str | 
         return None
     return (
         f"Warning: scene '{scene.name}' is rendered by {scene.render.engine}, not by Pivot. "
-        "Fix: put -E PIVOT after the .blend and before -f or -a"
+        "Fix: put -E PIVOT after the .blend and -S, and before -f or -a"
     )
 
 

@@ -54,8 +54,9 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
                             const std::array<float, 2>& matte, const std::array<float, 4>& color, float pass_index,
                             const optional<FloatArray>& random, const optional<FloatArray>& particle_index,
                             const optional<FloatArray>& generated, const optional<FloatArray>& uv,
-                            const std::map<string, std::array<float, 4>>& attributes, int light_group,
-                            const Masks& links, const std::array<std::uint8_t, 2>& link_sets, bool shadow_catcher) {
+                            const std::map<string, std::array<float, 4>>& attributes,
+                            const std::map<string, FloatArray>& own_attributes, int light_group, const Masks& links,
+                            const std::array<std::uint8_t, 2>& link_sets, bool shadow_catcher) {
     const string prefix = "object '" + name + "': ";
     require_shape(object_to_world, prefix + "object_to_world", {-1, 4, 4});
     const py::ssize_t count = object_to_world.shape(0);
@@ -64,6 +65,7 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
     if (particle_index) require_shape(*particle_index, prefix + "particle_index", {count});
     if (generated) require_shape(*generated, prefix + "generated", {count, 3});
     if (uv) require_shape(*uv, prefix + "uv", {count, 2});
+    for (const auto& [key, values] : own_attributes) require_shape(values, prefix + key, {count, 4});
     const ObjectFacts of_all{.attributes = object_attributes(scene, attributes),
                              .color = Rgb(color[0], color[1], color[2]),
                              .alpha = color[3],
@@ -77,6 +79,11 @@ std::uint32_t add_instances(Scene& scene, const string& name, std::uint32_t mesh
         if (particle_index) own.particle_index = particle_index->at(i);
         if (generated) own.generated = {generated->at(i, 0), generated->at(i, 1), generated->at(i, 2)};
         if (uv) own.uv = {uv->at(i, 0), uv->at(i, 1)};
+        if (own_attributes.empty()) continue;
+        auto own_and_shared = attributes;
+        for (const auto& [key, values] : own_attributes)
+            own_and_shared[key] = {values.at(i, 0), values.at(i, 1), values.at(i, 2), values.at(i, 3)};
+        own.attributes = object_attributes(scene, own_and_shared);
     }
     const py::gil_scoped_release release;
     return scene.add_instances({name,
@@ -155,7 +162,8 @@ void register_scene(py::module_& module) {
              py::arg("matte") = std::array<float, 2>{}, py::arg("color") = std::array<float, 4>{1.0f, 1.0f, 1.0f, 1.0f},
              py::arg("pass_index") = 0.0f, py::arg("random") = py::none(), py::arg("particle_index") = py::none(),
              py::arg("generated") = py::none(), py::arg("uv") = py::none(),
-             py::arg("attributes") = std::map<string, std::array<float, 4>>{}, py::arg("light_group") = -1,
+             py::arg("attributes") = std::map<string, std::array<float, 4>>{},
+             py::arg("own_attributes") = std::map<string, FloatArray>{}, py::arg("light_group") = -1,
              py::arg("links") = all_sets, py::arg("link_sets") = std::array<std::uint8_t, 2>{},
              py::arg("shadow_catcher") = false,
              "object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; "
@@ -163,7 +171,8 @@ void register_scene(py::module_& module) {
              "SHADOW; holdout: a camera sees a hole in their place; matte: ids of "
              "the object and the asset. What "
              "shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), "
-             "and from its instancer generated (N, 3) and uv (N, 2). light_group: of their emission, which passes show "
+             "own_attributes (N, 4) by name, and from its instancer generated (N, 3) and uv (N, 2). light_group: of "
+             "their emission, which passes show "
              "apart. links: of their light, masks of the sets of receivers that it lights and of blockers whose "
              "shadows it casts; link_sets: their own of both, by number. shadow_catcher: stand-ins for real things. "
              "Returns the first of N consecutive ids.")

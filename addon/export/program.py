@@ -196,12 +196,15 @@ class Program:
         return self.each("mix", factor, a, b)
 
     def registers(self, value: Value) -> Value:
-        """The same with every part in a register."""
-        somewhere = self.op("position")[0]
-        parts = (
-            value[i] if isinstance(part, Register) else somewhere * 0.0 + part for i, part in enumerate(value.parts)
-        )
-        return Value(tuple(part.parts[0] for part in parts), self)
+        """The same with every part in a register: a number is 0 times what varies, plus itself."""
+        somewhere, zero = self.op("position")[0], self.number(0)
+
+        def in_register(part: Part) -> Part:
+            if isinstance(part, Register):
+                return part
+            return self.op("math_multiply_add", somewhere, zero, self.number(part)).parts[0]
+
+        return Value(tuple(map(in_register, value.parts)), self)
 
     def attribute_id(self, name: str) -> float:
         """The core's number for a mesh's attribute, which the meshes of this material must then have."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ..report import RenderError, Reporter
 from .attributes import is_of_mesh, object_attributes
@@ -17,6 +18,7 @@ from .census import report_left_out
 from .context import Context
 from .groups import Group, GroupMaker
 from .images import ImageCache, ImageTable
+from .instance_attributes import CAN_READ, InstanceAttributes
 from .instances import Instances, particle_index
 from .light import export_light
 from .light_groups import light_group
@@ -78,6 +80,12 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 
 _MakeGroups = Callable[[bpy.types.Object, Instances, int], list[Group]]
+_Way = tuple[InstanceAttributes, tuple[int, ...]] | None  # to what an instance has of its own; None: an object itself
+
+
+def _of_instancers(group: Group) -> list[str]:
+    """The attributes of instancers and instances that its materials ask for."""
+    return [name for name in sorted(group.reads) if name.startswith("instancer:")]
 
 
 class _Exporter:
@@ -92,8 +100,10 @@ class _Exporter:
         self._groups: dict[tuple[Any, ...], list[Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[Group, list[int]] = defaultdict(list)
         self._particles: defaultdict[Group, list[int]] = defaultdict(list)
+        self._ways: defaultdict[Group, list[_Way]] = defaultdict(list)
+        self._of_instancers: dict[int, InstanceAttributes] = {}  # by the instancer's address
         # By the same and the instancer: where its instances are listed, so that each is only looked up.
-        self._lists: dict[tuple[Any, ...], list[tuple[list[int], list[int] | None]]] = {}
+        self._lists: dict[tuple[Any, ...], list[tuple[list[int], list[int] | None, list[_Way] | None]]] = {}
 
     def export_objects(self, is_shown: Callable[[bpy.types.Object], bool] | None) -> None:
         instances = self._context.depsgraph.object_instances
@@ -164,13 +174,27 @@ class _Exporter:
         lists = self._lists.get(key)
         if lists is None:
             lists = self._lists[key] = [
-                (self._instances[group], self._particles[group] if "particle:" in group.reads else None)
+                (
+                    self._instances[group],
+                    self._particles[group] if "particle:" in group.reads else None,
+                    self._ways[group] if CAN_READ and _of_instancers(group) else None,
+                )
                 for group in self._groups_of(make, of_any, blender_object, instancer, told, index)
             ]
-        for indices, particles in lists:
+        for indices, particles, ways in lists:
             indices.append(index)
             if particles is not None:
                 particles.append(particle_index(instance))
+            if ways is not None:
+                ways.append(self._way(instance, instancer))
+
+    def _way(self, instance: Any, instancer: bpy.types.Object | None) -> _Way:
+        if instancer is None:
+            return None
+        key = instancer.as_pointer()
+        if key not in self._of_instancers:
+            self._of_instancers[key] = InstanceAttributes(instancer, self._context.depsgraph)
+        return self._of_instancers[key], tuple(instance.persistent_id)
 
     def _groups_of(
         self,
@@ -193,6 +217,8 @@ class _Exporter:
         if not all(is_of_mesh(name) for name in reads):
             attributes = object_attributes(reads, blender_object, instancer, self._context.depsgraph)
             there = there | {"attributes": tuple(attributes.items())}
+            for group in groups if instancer and not CAN_READ else ():
+                self._report_unreadable([name for name in _of_instancers(group) if name not in attributes], instancer)
         return [replace(group, **there) for group in groups]
 
     def _add_instances(self, group: Group, indices: list[int], told: Instances) -> None:
@@ -221,12 +247,30 @@ class _Exporter:
             generated=told.generated[indices],
             uv=told.uv[indices],
             attributes=dict(group.attributes),
+            own_attributes=self._own_attributes(group),
         )
         self._context.placed.instances.append((indices, first))
         if group.is_filled:
             self._context.placed.filled.update(indices)
         if group.shines:
             self._context.placed.shining.update(indices)
+
+    def _report_unreadable(self, names: list[str], instancer: bpy.types.Object) -> None:
+        if any(modifier.type == "NODES" for modifier in instancer.modifiers):
+            for name in names:
+                text = f"attribute '{name.partition(':')[2]}' of its instances cannot be read in this Blender, it is 0"
+                self._warn(instancer, f"{text}. Fix: realize the instances and read it as Geometry")
+
+    def _own_attributes(self, group: Group) -> dict[str, NDArray[np.float32]]:
+        """(N, 4) of the attributes that some of a group's instances have for themselves."""
+        result = {}
+        for name in _of_instancers(group) if group in self._ways else []:
+            inner = name.partition(":")[2]
+            values = [None if way is None else way[0].value(inner, way[1]) for way in self._ways[group]]
+            if any(value is not None for value in values):
+                of_all = dict(group.attributes).get(name, (0.0,) * 4)
+                result[name] = np.array([of_all if value is None else value for value in values], np.float32)
+        return result
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

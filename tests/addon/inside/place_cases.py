@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 import parts
+from instance_nodes import paired_on_points
 
 COLUMNS = 10
 TILE_PX = 32
@@ -60,6 +61,8 @@ def _instances() -> None:
             settings.count, settings.frame_start, settings.frame_end, settings.normal_factor = 12, 0, 0, 0
             settings.render_type, settings.instance_object, settings.particle_size = "OBJECT", shown, 1
             settings.effector_weights.gravity = 0
+        elif name.startswith("stored"):
+            instancer.modifiers.new("pairs", "NODES").node_group = paired_on_points(shown)
         else:
             instancer.instance_type = "VERTS" if name == "random" else "FACES"
             shown.parent, shown.location = instancer, (0, 0, 0)
@@ -97,6 +100,10 @@ def _of_instances() -> Iterator[tuple[str, Make]]:
     yield "uv", node("UVMap", "UV", from_instancer=True)
     yield "particle index", node("ParticleInfo", "Index")
     yield "particle random", node("ParticleInfo", "Random")
+    if hasattr(bpy.types.Object, "evaluated_geometry"):  # Blender 3.4 tells nobody
+        kept = node("Attribute", "Color", attribute_name="kept", attribute_type="INSTANCER")
+        part = node("Attribute", "Fac", attribute_name="part", attribute_type="INSTANCER")
+        yield "stored", node("VectorMath", "Vector", (0, kept), (1, part), operation="ADD")
 
 
 def _tile(name: str, make: Make, location: Any) -> None:

@@ -193,6 +193,7 @@ class Scene:
         generated: Any = None,
         uv: Any = None,
         attributes: Any = None,
+        own_attributes: Any = None,
         light_group: int = -1,
         links: Any = (),
         link_sets: Any = (),

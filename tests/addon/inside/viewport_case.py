@@ -116,7 +116,8 @@ def steps() -> Iterator[Callable[[], bool]]:
         owner.asset_generate_preview()
         yield partial(is_previewed, owner)
     previews = {name: preview_of(owner)[..., :3].mean((0, 1)).tolist() for name, owner in previewed.items()}
-    window.write({"seen": seen, "previews": previews})
+    said = sorted(sys.modules["pivot.engine"].PivotRenderEngine.said_in_job)
+    window.write({"seen": seen, "previews": previews, "said": said})
 
 
 window.follow(steps(), deadline_s=60.0)
