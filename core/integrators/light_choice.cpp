@@ -40,9 +40,9 @@ LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, 
     cut_[0] = 0;
     cumulative_[0].fill(1.0f);
     if (cut_nodes == 1) return;
-    std::array<Batch, max_cut_nodes> weights;
+    std::array<Batch, most_in_cut> weights;
     // How much is unknown of where each node's light comes from: what refines first. 0: a light.
-    std::array<float, max_cut_nodes> unknown;
+    std::array<float, most_in_cut> unknown;
     for (std::size_t place = 0;;) {
         const LightTree::Node& node = tree.nodes()[static_cast<std::size_t>(cut_[place])];
         // In the tree's order: neighbours in u are neighbours in space.
@@ -59,14 +59,11 @@ LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, 
             const auto [reflected, variance] = light_importance(receivers_, node.proxies.broadcast(i));
             weights[at] = reflected;
             unknown[at] = 0.0f;
-            if (node.child[i] < 0) continue;
-            const Lanes weight = store(reflected * variance * inverse(variance + Batch(0.2f)));
-            unknown[at] = std::accumulate(weight.begin(), weight.begin() + static_cast<std::ptrdiff_t>(count), 0.0f);
+            if (node.child[i] >= 0) unknown[at] = hadd(reflected * variance * inverse(variance + Batch(0.2f)));
         }
         const auto next = std::max_element(unknown.begin(), unknown.begin() + static_cast<std::ptrdiff_t>(cut_size_));
         place = static_cast<std::size_t>(next - unknown.begin());
-        if (!(unknown[place] > 0.0f)) break;
-        if (cut_size_ + tree.nodes()[static_cast<std::size_t>(cut_[place])].count - 1 > cut_nodes) break;
+        if (!(unknown[place] > 0.0f) || cut_size_ >= cut_nodes) break;
     }
     Batch total(0.0f), sum(0.0f);
     for (std::size_t i = 0; i < cut_size_; ++i) total += weights[i];
@@ -128,8 +125,10 @@ bool LightChoice::go_down(std::size_t lane, std::span<Pick> picks) const {
                 continue;
             }
             const float sought = picks[k].u * total;
-            const auto i = static_cast<std::size_t>(
-                std::ranges::count_if(cumulative, [&](float weight) { return weight <= sought; }));
+            Batch before(0.0f);
+            for (std::size_t first = 0; first < light_tree_width; first += batch_size)
+                before += select(Batch::load_unaligned(&cumulative[first]) <= Batch(sought), Batch(1.0f), Batch(0.0f));
+            const auto i = static_cast<std::size_t>(hadd(before));
             picks[k].choose(i > 0 ? cumulative[i - 1] : 0.0f, cumulative[i], total, node.child[i]);
             is_at_node = is_at_node || picks[k].child >= 0;
         }

@@ -21,7 +21,8 @@ struct LightChoices {
 /// Chooses among a tree's lights for a batch of receivers.
 class LightChoice {
    public:
-    /// count: of receivers, the first lanes. cut_nodes: how many a cut may have; 1: there is none.
+    /// count: of receivers, the first lanes; the others repeat some of these. cut_nodes: a cut with fewer is refined;
+    /// 1: there is none.
     LightChoice(const LightTree& tree, const LightReceiver& receivers, std::size_t count, std::size_t cut_nodes);
 
     /// choices.size() lights for each receiver, each by the probability it says; u in [0, 1) places them all, evenly.
@@ -44,9 +45,11 @@ class LightChoice {
     const LightTree& tree_;
     LightReceiver receivers_;
     std::size_t count_;
-    std::array<std::int32_t, max_cut_nodes> cut_;  ///< nodes, or ~light, in the tree's order
+    static constexpr std::size_t most_in_cut = max_cut_nodes + light_tree_width - 2;
+
+    std::array<std::int32_t, most_in_cut> cut_;  ///< nodes, or ~light, in the tree's order
     std::size_t cut_size_ = 1;
-    std::array<Lanes, max_cut_nodes> cumulative_;  ///< what they weigh for each receiver, with all before them
+    std::array<Lanes, most_in_cut> cumulative_;  ///< what they weigh for each receiver, with all before them
     mutable std::optional<std::array<LightReceiver, batch_size>> alone_;  ///< each receiver in all lanes
 };
 

@@ -13,11 +13,14 @@ LightReceiver light_receiver(const VertexOf<Batch>& vertices) {
     const Batch inverse_across = inverse_sqrt(max(across2, least));
     const Batch x = select(is_along, Batch(1.0f), wo.x * inverse_across);
     const Batch y = select(is_along, Batch(0.0f), wo.y * inverse_across);
+    const Batch alpha2 = surface.alpha * surface.alpha, wide = Batch(0.25f) * (Batch(1.0f) - alpha2);
     return {.position = vertices.point.position,
             .frame = {x * frame.x + y * frame.y, x * frame.y - y * frame.x, frame.z},
             .wo_x = sqrt(across2),
             .wo_z = wo.z,
-            .alpha2 = surface.alpha * surface.alpha,
+            .alpha2 = alpha2,
+            .wide = wide,
+            .across = wide / max(wo.z * wo.z, Batch(1e-6f)),
             .diffuse = surface.diffuse,
             .fresnel_f0 = surface.fresnel_f0,
             .fresnel_f90 = surface.fresnel_f90,
@@ -33,6 +36,8 @@ LightReceiver light_receiver(const Vec3f& position) {
             .wo_x = zero,
             .wo_z = one,
             .alpha2 = one,
+            .wide = zero,
+            .across = zero,
             .diffuse = zero,
             .fresnel_f0 = zero,
             .fresnel_f90 = zero,

@@ -21,6 +21,7 @@ struct LightReceiverOf {
     Vec3<T> position;
     Frame<T> frame;  ///< z the normal; the viewer at wo.y = 0
     T wo_x, wo_z, alpha2;
+    T wide, across;  ///< how much light's variance widens the lobe's squared slopes along wo and across
     T diffuse;
     T fresnel_f0, fresnel_f90;  ///< both 0: no glossy lobe
     T above, below;             ///< what further lobes send on, by the side that it comes from
@@ -39,34 +40,38 @@ struct LightImportance {
 
 namespace detail {
 
+// The instruction set's estimates, to 11 bits: more would change no choice that matters.
+inline Batch about_inverse(const Batch& x) { return xsimd::reciprocal(x); }
+inline Batch about_inverse_sqrt(const Batch& x) { return xsimd::rsqrt(x); }
+
 /// Of a Gaussian of directions, its mean's cosine z and variance (of either angle): the mean of its clamped cosine,
 /// about.
 inline Batch mean_cosine(const Batch& z, const Batch& variance) {
     const Batch one(1.0f), zero(0.0f), spread = Batch(2.0f / pi<float>) * max(variance, Batch(1e-12f));
-    const Batch c = z * inverse(one + variance), tail = spread * inverse(one + Batch(4.0f) * spread);
+    const Batch c = z * about_inverse(one + variance), tail = spread * about_inverse(one + Batch(4.0f) * spread);
     const Batch root = sqrt(c * c + tail);
     // Below the horizon the difference would be lost to rounding.
-    return Batch(0.5f) * select(c < zero, tail * inverse(root - min(c, zero)), c + root);
+    return Batch(0.5f) * select(c < zero, tail * about_inverse(root - min(c, zero)), c + root);
 }
 
 /// GGX's reflection density towards wi, its normals widened by what light of that variance spreads half vectors: by 1/2
 /// along the plane of incidence and 1 / (2 cos_o) across [Tokuyoshi24, Heitz15]. By half of the paper's variance, as
 /// SGGX has longer tails than light has: choices vary a third less.
 inline Batch widened_ggx(const LightReceiver& r, const Vec3b& wi, const Batch& variance) {
-    const Batch one(1.0f), wide = Batch(0.25f) * (one - r.alpha2) * variance;
-    const Batch across = wide * inverse(max(r.wo_z * r.wo_z, Batch(1e-6f)));
-    const Batch s1 = (r.alpha2 + wide) * inverse(one + wide), s2 = (r.alpha2 + across) * inverse(one + across);
+    const Batch one(1.0f), wide = r.wide * variance, across = r.across * variance;
+    const Batch s1 = (r.alpha2 + wide) * about_inverse(one + wide);
+    const Batch s2 = (r.alpha2 + across) * about_inverse(one + across);
     const Vec3b h(r.wo_x + wi.x, wi.y, r.wo_z + wi.z);
     const Batch h2 = dot(h, h), s12 = s1 * s2;
     const Batch slope = h.x * h.x * s2 + h.y * h.y * s1 + h.z * h.z * s12;
-    const Batch ndf = s12 * sqrt(s12) * sqr(h2 * inverse(max(slope, Batch(1e-18f))));
-    return ndf * Batch(0.25f / pi<float>) * inverse_sqrt(s1 * r.wo_x * r.wo_x + r.wo_z * r.wo_z);
+    const Batch ndf = s12 * sqrt(s12) * sqr(h2 * about_inverse(max(slope, Batch(1e-18f))));
+    return ndf * Batch(0.25f / pi<float>) * about_inverse_sqrt(s1 * r.wo_x * r.wo_x + r.wo_z * r.wo_z);
 }
 
 /// Its masking towards light at that cosine.
 inline Batch masked_towards(const LightReceiver& r, const Batch& cos_i) {
     const Batch one(1.0f), c2 = cos_i * cos_i;
-    return Batch(2.0f) * cos_i * inverse(cos_i + sqrt(r.alpha2 + (one - r.alpha2) * c2));
+    return Batch(2.0f) * cos_i * about_inverse(cos_i + sqrt(r.alpha2 + (one - r.alpha2) * c2));
 }
 
 }  // namespace detail
@@ -98,7 +103,7 @@ inline Batch masked_towards(const LightReceiver& r, const Batch& cos_i) {
     }
     const Batch variance = light.variance_m2 * inverse_distance * inverse_distance;
     // Irradiance of a surface that faces it: finite also in its midst.
-    const Batch irradiance = light.intensity * lit * inverse(distance2 + Batch(0.5f) * light.variance_m2);
+    const Batch irradiance = light.intensity * lit * about_inverse(distance2 + Batch(0.5f) * light.variance_m2);
     const Vec3b wi = r.frame.to_local(towards);
     const Batch cosine = mean_cosine(wi.z, variance);
     Batch reflected = (r.diffuse + r.above) * cosine * Batch(1.0f / pi<float>);
