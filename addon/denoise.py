@@ -66,7 +66,7 @@ class Guides:
 
     albedo: Pixels
     normal: Pixels
-    is_coarse: bool
+    edge_px: int = 1  # of their pixels, in the picture's
 
 
 @dataclass(frozen=True)
@@ -97,43 +97,44 @@ class Denoiser:
         Raises DenoiserError.
         """
         guides = guides or self.guides(read)
-        combined, noisy_indirect = read("Combined"), read("Noisy Indirect")
-        shown, indirect = combined[..., :3], read("Indirect")
-        direct, kept = shown - indirect, 1.0
+        edge_px = guides.edge_px
+        combined, indirect = read("Combined"), read("Indirect")
+        noisy_indirect, shown = _binned(read("Noisy Indirect"), edge_px), _binned(combined[..., :3], edge_px)
+        direct, kept = combined[..., :3] - indirect, 1.0
         of_direct, of_indirect = (
-            denoise_blend.relative_noise(read(f"{light} Variance"), shown) for light in ("Direct", "Indirect")
+            denoise_blend.relative_noise(_binned(read(f"{light} Variance"), edge_px), shown)
+            for light in ("Direct", "Indirect")
         )
         is_told = of_indirect.any()  # which takes samples that come together
         if _is_noisy(of_direct, _LEFT[mode]) if is_told else mode == "ALL":
-            clean = self._own_light(np.maximum(read("Noisy Image")[..., :3] - noisy_indirect, 0), guides)
-            kept = denoise_blend.share_kept(direct, clean, of_direct, _LEFT[mode], shown) if is_told else 0.0
-            direct = kept * direct + (1 - kept) * clean
+            noisy_image = _binned(read("Noisy Image")[..., :3], edge_px)
+            clean = self._own_light(np.maximum(noisy_image - noisy_indirect, 0), guides)
+            kept = 0.0
+            if is_told:
+                seen = _binned(direct, edge_px)
+                kept = denoise_blend.share_kept(seen, clean, of_direct, _LEFT[mode], shown, edge_px**2)
+                kept = _spread(kept, edge_px, *direct.shape[:2])
+            direct = kept * direct + (1 - kept) * _spread(clean, edge_px, *direct.shape[:2])
         if not is_told or _is_noisy(of_indirect, _LEFT["INDIRECT"]):
-            indirect = self._own_light(noisy_indirect, guides)
+            indirect = _spread(self._own_light(noisy_indirect, guides), edge_px, *indirect.shape[:2])
         return Denoised(np.concatenate([direct + indirect, combined[..., 3:]], axis=-1), indirect, kept)
 
-    def guides(self, read: Callable[[str], Pixels], is_coarse: bool = False) -> Guides:
-        """What a picture's light is filtered by. is_coarse: that has pixels of twice the edge, which takes a quarter of
-        the time. read: as of denoised()."""
-        albedo, normal = read("Denoising Albedo"), read("Denoising Normal")
-        if is_coarse:
-            albedo, normal = _halved(albedo), _halved(normal)
+    def guides(self, read: Callable[[str], Pixels], edge_px: int = 1) -> Guides:
+        """What a picture's light is filtered by. edge_px: by pixels of that edge, which takes the less time the larger
+        they are. read: as of denoised()."""
+        albedo, normal = (_binned(read(f"Denoising {name}"), edge_px) for name in ("Albedo", "Normal"))
         if not self._is_quick:
             albedo, normal = self._filtered(albedo=albedo), self._filtered(normal=normal)
-        return Guides(albedo, normal, is_coarse)
+        return Guides(albedo, normal, edge_px)
 
     def light(self, noisy: Pixels, guides: Guides) -> Pixels:
-        """All light of a picture or some, (height, width, 3), without noise."""
-        if not noisy.any():
-            return noisy
-        color = _halved(noisy) if guides.is_coarse else noisy
-        clean = self._filtered(color=color, albedo=guides.albedo, normal=guides.normal)
-        return _doubled(clean, *noisy.shape[:2]) if guides.is_coarse else clean
+        """All light of a picture or some, by the guides' pixels, (height, width, 3), without noise."""
+        return self._filtered(color=noisy, albedo=guides.albedo, normal=guides.normal) if noisy.any() else noisy
 
     def _own_light(self, noisy: Pixels, guides: Guides) -> Pixels:
-        """As light(), of pixels' own samples, and as the pixel filter shows it."""
+        """As light(), of pixels' own samples, and as the pixel filter shows it where that is seen."""
         clean = self.light(noisy, guides)
-        return clean if guides.is_coarse else softened(clean, self.filter_width_px)
+        return clean if guides.edge_px > 1 else softened(clean, self.filter_width_px)
 
     def _filtered(self, **images: Pixels) -> Pixels:
         """One image without noise, (height, width, 3): color, which may be of any range, by albedo and normal; or
@@ -149,15 +150,20 @@ def _is_noisy(noise: Pixels, left: float) -> bool:
     return bool(np.mean(noise > left) > _FEW)
 
 
-def _halved(image: Pixels) -> Pixels:
-    """Means of two by two pixels; of an odd number of rows or columns the last stand alone."""
-    height, width = image.shape[:2]
-    even = np.pad(image, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
-    return 0.25 * (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2])
+def _binned(image: Pixels, edge_px: int) -> Pixels:
+    """Means over squares of pixels, (height, width, channels); those at the end reach past it, over its last pixels."""
+    if edge_px == 1:
+        return image
+    past = [-side % edge_px for side in image.shape[:2]]
+    whole = np.pad(image, ((0, past[0]), (0, past[1]), (0, 0)), mode="edge") if any(past) else image
+    rows = sum(whole[first::edge_px] for first in range(edge_px))
+    binned: Pixels = sum(rows[:, first::edge_px] for first in range(edge_px)) / np.float32(edge_px**2)
+    return binned
 
 
-def _doubled(image: Pixels, height: int, width: int) -> Pixels:
-    return image.repeat(2, axis=0).repeat(2, axis=1)[:height, :width]
+def _spread(image: Pixels, edge_px: int, height: int, width: int) -> Pixels:
+    """What _binned() made as large as it was, in squares."""
+    return image if edge_px == 1 else image.repeat(edge_px, axis=0).repeat(edge_px, axis=1)[:height, :width]
 
 
 def _candidates() -> Iterator[str]:

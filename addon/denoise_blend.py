@@ -29,14 +29,16 @@ def relative_noise(variance: Pixels, picture: Pixels) -> Pixels:
     return _around(variance[..., 0] * _per_squared_light(picture))
 
 
-def share_kept(noisy: Pixels, clean: Pixels, noise: Pixels, unseen: float, picture: Pixels) -> Pixels:
+def share_kept(
+    noisy: Pixels, clean: Pixels, noise: Pixels, unseen: float, picture: Pixels, averaged: int = 1
+) -> Pixels:
     """How much of each pixel is to be of the noisy light, the rest of the clean one: (height, width, 1).
 
     noisy, clean: (height, width, 3), light of the picture. noise: that of the noisy one, as relative_noise() has it.
-    unseen: noise up to that is no harm.
+    unseen: noise up to that is no harm. averaged: of how many pixels noisy and clean are means, whose noise is told.
     """
     difference = _around(np.mean((noisy - clean) ** 2, axis=-1) * _per_squared_light(picture))
-    off, harm = np.maximum(difference - _TOLD * noise, 0), np.maximum(noise - unseen, 0)
+    off, harm = np.maximum(difference - _TOLD * noise / averaged, 0), np.maximum(noise - unseen, 0)
     off = np.maximum(off, 1e-12)  # without any harm all is kept
     share: Pixels = (off / (off + harm))[..., None].astype(np.float32)
     return share

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from typing import Any
 
 from . import denoise
 
 _FINE_SAMPLES = 4
+_FIRST_PIXELS = 60_000  # of a picture of few samples: it is to be there within 40 ms
 _PASSES = (
     "Combined",
     "Indirect",
@@ -23,7 +25,7 @@ _PASSES = (
 class ViewportDenoiser:
     """One picture at a time. A session's is cleaned whenever it has twice the samples, and at its end.
 
-    That of its first samples is filtered by large pixels, to be there soon.
+    That of its first samples is filtered by large pixels, to be there soon: the larger, the larger the view is.
     """
 
     def __init__(self) -> None:
@@ -49,8 +51,9 @@ class ViewportDenoiser:
             return
         passes = {name: session.read(name) for name in _PASSES}
         self._samples_begun, self._denoiser.filter_width_px = samples, filter_width_px
-        is_coarse = samples < _FINE_SAMPLES and not finished
-        arguments = mode, passes, is_coarse, self._session_number
+        is_first = samples < _FINE_SAMPLES and not finished
+        edge_px = max(2, math.ceil(math.sqrt(session.width * session.height / _FIRST_PIXELS))) if is_first else 1
+        arguments = mode, passes, edge_px, self._session_number
         self._thread = threading.Thread(target=self._clean, args=arguments, daemon=True)
         self._thread.start()
 
@@ -70,10 +73,10 @@ class ViewportDenoiser:
     def _is_busy(self) -> bool:
         return self._thread is not None and self._thread.is_alive()
 
-    def _clean(self, mode: str, passes: dict[str, Any], is_coarse: bool, session_number: int) -> None:
+    def _clean(self, mode: str, passes: dict[str, Any], edge_px: int, session_number: int) -> None:
         cleaned = None
         try:
-            guides = self._denoiser.guides(passes.__getitem__, is_coarse)
+            guides = self._denoiser.guides(passes.__getitem__, edge_px)
             cleaned = self._denoiser.denoised(mode, passes.__getitem__, guides).combined
         except denoise.DenoiserError as error:
             self._is_broken = True

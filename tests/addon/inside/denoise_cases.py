@@ -58,8 +58,8 @@ def _of_grey_noise() -> dict[str, list[float]]:
     read |= {"Noisy Image": combined, "Denoising Albedo": grey, "Denoising Normal": grey}
     read |= {"Direct Variance": np.zeros_like(noise), "Indirect Variance": np.full_like(noise, 1 / 3)}
     denoiser, result = denoise.Denoiser(is_quick=True), {"noisy": combined}
-    for name, mode, is_coarse in (("coarse", "ALL", True), ("indirect", "INDIRECT", True), ("fine", "ALL", False)):
-        guides = denoiser.guides(read.__getitem__, is_coarse)
+    for name, mode, edge_px in (("coarse", "ALL", 3), ("indirect", "INDIRECT", 2), ("fine", "ALL", 1)):
+        guides = denoiser.guides(read.__getitem__, edge_px)
         result[name] = denoiser.denoised(mode, read.__getitem__, guides).combined
     # The noise is direct light's, or for all that is known what is seen.
     read |= {"Indirect": np.zeros_like(direct), "Noisy Indirect": np.zeros_like(direct)}
