@@ -8,7 +8,8 @@
 namespace pivot {
 namespace {
 
-/// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB.
+/// So many triangles of meshes with several instances are traced as if each were a mesh of its own: some 50 MB. Of a
+/// mesh with more in all its instances none are, for those few would be memory and hardly faster.
 constexpr std::size_t max_copied_triangles = 1u << 19;
 /// Where meshes have shared BVHs, so many triangles of small ones are put into one BVH anew for each scene: some 5 ms.
 constexpr std::size_t max_rebuilt_triangles = 1u << 15;
@@ -145,7 +146,8 @@ void InstanceBvhs::attach_all() {
             continue;
         }
         const std::size_t copied = shared_ || uses[instance.mesh] > 1 ? meshes_.at(instance.mesh)->triangles.size() : 0;
-        const bool has_room = copied_triangles_ + copied <= (shared_ ? max_rebuilt_triangles : max_copied_triangles);
+        const std::size_t most = shared_ ? max_rebuilt_triangles : max_copied_triangles;
+        const bool has_room = copied_triangles_ + copied <= most && copied * uses[instance.mesh] <= most;
         // What is scaled flat has no space of its own to be traced in.
         const bool is_kept = !instance.has_moved && !instance.motion && meshes_.at(instance.mesh)->steps.empty();
         if (!instance.world_from_object.is_invertible() || (is_kept && has_room)) {
