@@ -23,16 +23,13 @@ Array = NDArray[np.float32]
 
 def cached_positions(blender_object: Any, system: Any, first: int, count: int, steps: int) -> Array | None:
     """(count, steps, 3) as `co_hair` of an evaluated object tells them: world space. None: ask that."""
-    keys = _keys(system, first, count, steps)
-    if keys is None:
-        return None
-    positions: Array = np.array(keys["position"])
-    positions[keys["segments"][:, :1] < np.arange(steps)] = 0  # points that a strand lacks
-    return positions if _is_told(blender_object, system, first, positions) else None
+    strands = _addresses(system, first, count)
+    positions = None if strands is None else _read(strands, steps)
+    return positions if positions is not None and _is_told(blender_object, system, first, positions) else None
 
 
-def _keys(system: Any, first: int, count: int, steps: int) -> NDArray[Any] | None:
-    """(count, steps) of _KEY."""
+def _addresses(system: Any, first: int, count: int) -> NDArray[np.uint64] | None:
+    """(count,), of each strand's _KEYs."""
     parents, children = system.particles, system.child_particles
     fields = _at(system.as_pointer(), np.dtype(np.uint64), _POINTERS)
     expected = {_SETTINGS: [system.settings], _PARTICLES: parents[:1], _CHILDREN: children[:1]}
@@ -47,9 +44,13 @@ def _keys(system: Any, first: int, count: int, steps: int) -> NDArray[Any] | Non
         if not fields[_CHILD_PATHS]:
             return None
         strands = np.concatenate([strands, _at(int(fields[_CHILD_PATHS]), np.dtype(np.uint64), count - of_parents)])
-    if not strands.all():
-        return None
-    keys = np.empty((count, steps), _KEY)
+    return strands if strands.all() else None
+
+
+def _read(strands: NDArray[np.uint64], steps: int) -> Array | None:
+    """(count, steps, 3); points that a strand lacks are 0."""
+    count = len(strands)
+    positions, segments = np.empty((count, steps, 3), np.float32), np.empty(count, np.int32)
     # Those of about a thousand strands lie behind each other.
     apart = np.diff(strands.astype(np.int64))
     ends = [*(np.flatnonzero(apart != apart[0]) + 1 if count > 1 else []), count]
@@ -59,9 +60,11 @@ def _keys(system: Any, first: int, count: int, steps: int) -> NDArray[Any] | Non
         if stride < steps * _KEY.itemsize:
             return None
         block = (ctypes.c_char * ((number - 1) * stride + steps * _KEY.itemsize)).from_address(int(strands[begin]))
-        keys[begin:end] = np.ndarray((number, steps), _KEY, block, 0, (stride, _KEY.itemsize))
+        keys = np.ndarray((number, steps), _KEY, block, 0, (stride, _KEY.itemsize))
+        positions[begin:end], segments[begin:end] = keys["position"], keys["segments"][:, 0]
         begin = end
-    return keys
+    positions[segments[:, None] < np.arange(steps)] = 0
+    return positions
 
 
 def _at(address: int, kind: np.dtype[Any], count: int) -> NDArray[Any]:

@@ -87,9 +87,9 @@ def _positions(system: Any, blender_object: bpy.types.Object, first: int, count:
     world = cached_positions(blender_object, system, first, count, steps)
     if world is None:  # a call for each point takes long
         world = np.fromiter(coordinates(), np.float32, 3 * count * steps)
-    world = world.reshape(-1, 3)
-    to_object = np.array(blender_object.matrix_world.inverted_safe(), np.float64)
-    return (world @ to_object[:3, :3].T + to_object[:3, 3]).astype(np.float32)
+    to_world = blender_object.matrix_world
+    to_object = np.array(to_world.to_3x3().inverted_safe(), np.float32)
+    return (world.reshape(-1, 3) - np.array(to_world.translation, np.float32)) @ to_object.T
 
 
 def _radii(settings: Any, arrays: CurveArrays, steps: int) -> Array:
