@@ -4,8 +4,8 @@
 
 Runs the scenes of tests/addon/inside/ that tests compare with Cycles. Prints of each picture, and of each pass of a
 multilayer one, the ratio of the means, Pivot over Cycles, by colour, and the FLIP of the pictures as a screen shows
-them; where that is seen, alpha's as a fourth. --merge: the least and the most of each script instead. (dark) marks
-what is too dark for a ratio to say anything. Pictures are side by side, Cycles' left, in build/feature_table.
+them; where that is seen, alpha's as a fourth. --merge: the least and the most of each script instead. Where both are
+dark, no ratio is said. Pictures are side by side, Cycles' left, in build/feature_table.
 """
 
 from __future__ import annotations
@@ -61,17 +61,16 @@ PICTURES = Path(__file__).resolve().parents[2] / "build" / "feature_table"
 @dataclass(frozen=True)
 class Row:
     name: str
-    ratios: np.ndarray  # (3,) or with alpha (4,)
+    ratios: np.ndarray  # (3,) or with alpha (4,); not a number where both pictures are dark
     flip: float
-    is_dark: bool
 
     @property
     def is_alike(self) -> bool:
-        return (self.is_dark or bool(np.all(np.abs(self.ratios - 1) <= TOLERANCE))) and self.flip <= FLIP
+        return bool(np.nanmax(np.abs(self.ratios - 1), initial=0) <= TOLERANCE) and self.flip <= FLIP
 
     @property
     def means(self) -> str:
-        return " ".join(f"{ratio:.3f}" for ratio in self.ratios) + (" (dark)" if self.is_dark else "")
+        return " ".join("dark" if np.isnan(ratio) else f"{ratio:.3f}" for ratio in self.ratios)
 
 
 def main() -> None:
@@ -136,8 +135,8 @@ def _row(name: str, ours: Picture, cycles: Picture) -> Row:
     means = [picture.mean(axis=(0, 1)) for picture in (ours, cycles)]
     shown = [_over_grey(picture) for picture in (ours, cycles)]
     write_png(PICTURES / f"{re.sub(r'[^A-Za-z0-9]+', '_', name)}.png", to_bytes(np.hstack(shown[::-1])))
-    is_dark = float(means[1].max()) < DARK
-    return Row(name, means[0] / np.maximum(means[1], 1e-6), flip(*shown), is_dark)
+    are_dark = np.maximum(*np.abs(means)) < DARK
+    return Row(name, np.where(are_dark, np.nan, means[0] / np.maximum(means[1], 1e-6)), flip(*shown))
 
 
 def _over_grey(picture: Picture) -> Picture:
@@ -152,9 +151,10 @@ def _line(row: Row) -> str:
 
 
 def _merged(feature: str, rows: list[Row]) -> str:
-    seen = np.concatenate([row.ratios for row in rows if not row.is_dark] or [np.ones(1)])
-    flips = [row.flip for row in rows] or [0.0]
-    return f"| {feature} | {seen.min():.3f} to {seen.max():.3f} | {min(flips):.3f} to {max(flips):.3f} |"
+    if not rows:
+        return f"| {feature} | | |"
+    seen, flips = np.concatenate([row.ratios for row in rows]), [row.flip for row in rows]
+    return f"| {feature} | {np.nanmin(seen):.3f} to {np.nanmax(seen):.3f} | {min(flips):.3f} to {max(flips):.3f} |"
 
 
 if __name__ == "__main__":
