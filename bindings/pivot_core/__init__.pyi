@@ -610,6 +610,7 @@ class Scene:
         attributes: collections.abc.Mapping[
             str, typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"]
         ] = {},
+        own_attributes: collections.abc.Mapping[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = {},
         light_group: typing.SupportsInt | typing.SupportsIndex = -1,
         links: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(2)"] = [
             18446744073709551615,
@@ -621,7 +622,7 @@ class Scene:
         shadow_catcher: bool = False,
     ) -> int:
         """
-        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), and from its instancer generated (N, 3) and uv (N, 2). light_group: of their emission, which passes show apart. links: of their light, masks of the sets of receivers that it lights and of blockers whose shadows it casts; link_sets: their own of both, by number. shadow_catcher: stand-ins for real things. Returns the first of N consecutive ids.
+        object_to_world (N, 4, 4) row-major; materials: an id per slot, a slot past the end uses the last; hidden_from: which rays do not meet them, of CAMERA, DIFFUSE, GLOSSY, TRANSMISSION, VOLUME_SCATTER and SHADOW; holdout: a camera sees a hole in their place; matte: ids of the object and the asset. What shaders ask of them: color, pass_index and attributes by name; of each, random and particle_index (N,), own_attributes (N, 4) by name, and from its instancer generated (N, 3) and uv (N, 2). light_group: of their emission, which passes show apart. links: of their light, masks of the sets of receivers that it lights and of blockers whose shadows it casts; link_sets: their own of both, by number. shadow_catcher: stand-ins for real things. Returns the first of N consecutive ids.
         """
     def add_light(
         self,

@@ -208,6 +208,7 @@ LIT = {
     "glossy bump": ("Glossy", GENTLE),
     "diffuse map": ("Diffuse", node("NormalMap", "Normal", ("Color", _tilted), uv_map="UVMap")),
     "glossy map": ("Glossy", node("NormalMap", "Normal", ("Color", _tilted), uv_map="UVMap")),
+    "constant": ("Diffuse", node("CombineXYZ", "Vector", X=0.1, Y=-0.9, Z=0.3)),
     "displacement": ("Diffuse", node("Displacement", "Displacement", ("Height", WAVES), Scale=0.2, Midlevel=0.0)),
 }
 
