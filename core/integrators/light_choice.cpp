@@ -41,8 +41,8 @@ LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, 
     cumulative_[0].fill(1.0f);
     if (cut_nodes == 1) return;
     std::array<Batch, most_in_cut> weights;
-    // How much is unknown of where each node's light comes from: what refines first. 0: a light.
-    std::array<float, most_in_cut> unknown;
+    // How much is unknown of where each node's light comes from: what refines first. 0: a light, or none.
+    std::array<float, (most_in_cut + batch_size - 1) / batch_size * batch_size> unknown{};
     for (std::size_t place = 0;;) {
         const LightTree::Node& node = tree.nodes()[static_cast<std::size_t>(cut_[place])];
         // In the tree's order: neighbours in u are neighbours in space.
@@ -61,16 +61,18 @@ LightChoice::LightChoice(const LightTree& tree, const LightReceiver& receivers, 
             unknown[at] = 0.0f;
             if (node.child[i] >= 0) unknown[at] = hadd(reflected * variance * inverse(variance + Batch(0.2f)));
         }
-        const auto next = std::max_element(unknown.begin(), unknown.begin() + static_cast<std::ptrdiff_t>(cut_size_));
-        place = static_cast<std::size_t>(next - unknown.begin());
-        if (!(unknown[place] > 0.0f) || cut_size_ >= cut_nodes) break;
+        Batch most(0.0f);
+        for (std::size_t i = 0; i < cut_size_; i += batch_size) most = max(most, Batch::load_unaligned(&unknown[i]));
+        const float largest = std::ranges::max(store(most));
+        if (!(largest > 0.0f) || cut_size_ >= cut_nodes) break;
+        place = static_cast<std::size_t>(std::ranges::find(unknown, largest) - unknown.begin());
     }
     Batch total(0.0f), sum(0.0f);
     for (std::size_t i = 0; i < cut_size_; ++i) total += weights[i];
     for (std::size_t i = 0; i < cut_size_; ++i) cumulative_[i] = store(sum += not_lost(weights[i], total));
 }
 
-/// What a node's children weigh for one receiver, each with all before it. Past the last child: all.
+/// What a node's children weigh for one receiver: 0, then each with all before it. Past the last child: all.
 LightChoice::Weights LightChoice::cumulative_weights(const LightTree::Node& node, std::size_t lane) const {
     if (!alone_) {
         const auto each = unpack<LightReceiverOf>(receivers_);
@@ -83,8 +85,9 @@ LightChoice::Weights LightChoice::cumulative_weights(const LightTree::Node& node
         sum += of_children[i] = light_importance((*alone_)[lane], node.proxies.batch(i * batch_size)).reflected;
     const Batch total(hadd(sum));
     Weights weights;
+    weights[0] = 0.0f;
     for (std::size_t i = 0; i < of_children.size(); ++i)
-        not_lost(of_children[i], total).store_unaligned(&weights[i * batch_size]);
+        not_lost(of_children[i], total).store_unaligned(&weights[1 + i * batch_size]);
     std::partial_sum(weights.begin(), weights.end(), weights.begin());
     return weights;
 }
@@ -117,7 +120,7 @@ bool LightChoice::go_down(std::size_t lane, std::span<Pick> picks) const {
         }
         const LightTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
         const Weights cumulative = cumulative_weights(node, lane);
-        const float total = cumulative[node.count - 1];
+        const float total = cumulative.back();
         // Picks ascend: those of one node follow each other.
         for (; k < picks.size() && picks[k].child == index; ++k) {
             if (!can_choose(total)) {
@@ -127,9 +130,10 @@ bool LightChoice::go_down(std::size_t lane, std::span<Pick> picks) const {
             const float sought = picks[k].u * total;
             Batch before(0.0f);
             for (std::size_t first = 0; first < light_tree_width; first += batch_size)
-                before += select(Batch::load_unaligned(&cumulative[first]) <= Batch(sought), Batch(1.0f), Batch(0.0f));
-            const auto i = static_cast<std::size_t>(hadd(before));
-            picks[k].choose(i > 0 ? cumulative[i - 1] : 0.0f, cumulative[i], total, node.child[i]);
+                before +=
+                    select(Batch::load_unaligned(&cumulative[1 + first]) <= Batch(sought), Batch(1.0f), Batch(0.0f));
+            const auto i = static_cast<std::size_t>(to_index(hadd(before)));
+            picks[k].choose(cumulative[i], cumulative[i + 1], total, node.child[i]);
             is_at_node = is_at_node || picks[k].child >= 0;
         }
     }
@@ -157,22 +161,22 @@ void LightChoice::choose(const Batch& u, std::span<LightChoices> choices) const 
 }
 
 float LightChoice::probability(std::size_t lane, std::size_t light) const {
-    // A node's part of its cumulative weights, as distribute() takes it.
-    const auto part = [](std::size_t i, std::size_t count, const auto& cumulative) {
-        const float total = cumulative(count - 1), weight = cumulative(i) - (i > 0 ? cumulative(i - 1) : 0.0f);
-        return can_choose(total) ? weight / total : 0.0f;
+    const auto part = [](float before, float up_to, float total) {
+        return can_choose(total) ? (up_to - before) / total : 0.0f;
     };
     float probability = 1.0f;
     std::int32_t child = ~static_cast<std::int32_t>(light);
     auto [index, place] = tree_.leaf(light);
     const std::span<const std::int32_t> cut(cut_.data(), cut_size_);
     for (auto at = std::ranges::find(cut, child);; at = std::ranges::find(cut, child)) {
-        if (at != cut.end())
-            return probability * part(static_cast<std::size_t>(at - cut.begin()), cut_size_,
-                                      [&](std::size_t i) { return cumulative_[i][lane]; });
+        if (at != cut.end()) {
+            const auto i = static_cast<std::size_t>(at - cut.begin());
+            return probability * part(i > 0 ? cumulative_[i - 1][lane] : 0.0f, cumulative_[i][lane],
+                                      cumulative_[cut_size_ - 1][lane]);
+        }
         const LightTree::Node& node = tree_.nodes()[static_cast<std::size_t>(index)];
         const Weights cumulative = cumulative_weights(node, lane);
-        probability *= part(place, node.count, [&](std::size_t i) { return cumulative[i]; });
+        probability *= part(cumulative[place], cumulative[place + 1], cumulative.back());
         if (!(probability > 0.0f)) return 0.0f;
         child = index;
         place = node.place_in_parent;
