@@ -172,7 +172,7 @@ def _read(mesh: bpy.types.Mesh, attribute: Any, name: str, result: MeshAttribute
 
 
 def _nothing(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
-    """What only curves have."""
+    """What only curves and points have."""
 
 
 def _island(mesh: bpy.types.Mesh, arrays: MeshArrays, inner: str, name: str, result: MeshAttributes) -> None:
@@ -202,4 +202,5 @@ _OF_MESH: dict[str, Callable[[bpy.types.Mesh, MeshArrays, str, str, MeshAttribut
     "pointiness": _pointiness,
     "attribute": _named,
     "strand": _nothing,
+    "point": _nothing,
 }

@@ -82,6 +82,10 @@ def point_arrays(points: bpy.types.PointCloud, names: frozenset[str]) -> CurveAr
         at.data.foreach_get("vector", positions.ravel())
     arrays = CurveArrays(positions, _radii(points, count, POINT_RADIUS_M), np.arange(count + 1, dtype=np.int32))
     _add_attributes(arrays, points, names)
+    for name in names:
+        kind, _, inner = name.partition(":")
+        if kind == "point":
+            arrays.point_attributes[name] = _POINT[inner](arrays)
     return arrays
 
 
@@ -146,6 +150,12 @@ def _random(arrays: CurveArrays, name: str) -> None:
     arrays.add_of_curves(name, random_of_numbers(np.arange(len(arrays.offsets) - 1, dtype=np.uint32), words=2))
 
 
+# What Blender's Point Info tells of each point of a cloud, (P, 1 or 3).
+_POINT: dict[str, Callable[[CurveArrays], Array]] = {
+    "position": lambda arrays: arrays.positions,
+    "radius": lambda arrays: arrays.radii_m[:, None],
+    "random": lambda arrays: random_of_numbers(np.arange(len(arrays.positions), dtype=np.uint32), words=2)[:, None],
+}
 _STRAND: dict[str, Callable[[CurveArrays, str], None]] = {
     "intercept": _intercept,
     "length": _length,

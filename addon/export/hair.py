@@ -38,16 +38,20 @@ def principled_hair(feed: Socket, owner: Owner) -> Surface:
 
 
 def hair(feed: Socket, owner: Owner) -> Surface:
-    """Hair BSDF, along the hair or along what is linked to its Tangent. [Cycles 4.5 svm/closure.h]"""
+    """Hair BSDF, along the hair or along what is linked to its Tangent. [Cycles 4.5 svm/closure.h]
+
+    On a mesh without a Tangent it lies along an edge of each triangle, and no Offset counts.
+    """
     program, along = owner.program, feed.input("Tangent")
+    is_told, tilt = is_linked(along), 0.0 - number(feed.input("Offset"), owner)
     shape = (
         ("transmits", program.number(float(feed.node.component == "Transmission"))),
         ("roughness_along", number(feed.input("RoughnessU"), owner).clamped()),
         ("roughness_around", number(feed.input("RoughnessV"), owner).clamped()),
-        ("tilt_rad", 0.0 - number(feed.input("Offset"), owner)),
+        ("tilt_rad", tilt if is_told else tilt * program.op("is_strand")[0]),
     )
     lobe = Lobe("strand", (("color", colour(feed.input("Color"), owner).at_least(0.0).widened()),), shape)
-    tangent = colour(along, owner) if is_linked(along) else program.op("strand_tangent")
+    tangent = colour(along, owner) if is_told else program.op("hair_tangent")
     return Surface.of(program, lobes=(lobe,), tangent=tangent)
 
 

@@ -52,8 +52,8 @@ def material_surface(tree: bpy.types.NodeTree, owner: Owner) -> Surface:
         return Surface.of(owner.program)
     _leave_out(output, owner)
     try:
-        displacement = output.input("Displacement")
-        if is_linked(displacement):
+        displacement = output.find_input("Displacement")
+        if displacement is not None and is_linked(displacement):
             owner = displaced(displacement, owner)
             _report_displacement(owner)
         surface = _shader(output, owner)
@@ -266,6 +266,7 @@ _SHADERS: dict[str, Callable[[Socket, Owner], Surface]] = {
     "BSDF_GLASS": _glass,
     "BSDF_REFRACTION": _refraction,
     "BSDF_TRANSPARENT": _transparent,
+    "BSDF_RAY_PORTAL": _transparent,  # as it is where no other place is linked to it
     "HOLDOUT": _holdout,
     "EMISSION": _emission,
     "BACKGROUND": _emission,

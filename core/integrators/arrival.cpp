@@ -1,5 +1,6 @@
 #include "core/integrators/arrival.h"
 
+#include "core/integrators/openness.h"
 #include "core/simd/pack.h"
 
 namespace pivot {
@@ -55,6 +56,11 @@ Arrived find_places(const Scene& scene, std::span<const Arrival* const> arrivals
 
 void run(const Scene& scene, const Program& program, const Arrived& at, std::uint32_t bounce, ProgramMemory& memory) {
     const ArrivalOf<Batch>& arrived = at.arrivals;
+    const Openness openness = [&](const OpennessQuestion& question) {
+        std::array<std::uint32_t, batch_size> instances;
+        for (std::size_t i = 0; i < batch_size; ++i) instances[i] = at.lanes[i]->hit.instance;
+        return openness_around(scene, at.point, instances, question);
+    };
     PlaceLanes place_lanes{.meshes = {},
                            .objects = {},
                            .triangles = {},
@@ -65,7 +71,8 @@ void run(const Scene& scene, const Program& program, const Arrived& at, std::uin
                            .ray_kind = arrived.ray_kind,
                            .bounce = WordBatch(bounce),
                            .camera = &scene.camera_facts(),
-                           .footprint_m = arrived.footprint_m};
+                           .footprint_m = arrived.footprint_m,
+                           .openness = &openness};
     for (std::size_t i = 0; i < batch_size; ++i) {
         place_lanes.meshes[i] = &scene.mesh_of(at.lanes[i]->hit);
         place_lanes.objects[i] = &scene.facts_of(at.lanes[i]->hit);

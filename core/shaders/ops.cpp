@@ -8,7 +8,7 @@ namespace {
 constexpr std::array tables{math_ops,   vector_math_ops, map_range_ops,   rotation_ops,  color_ops,
                             blend_ops,  spectrum_ops,    geometry_ops,    attribute_ops, ray_ops,
                             normal_ops, noise_ops,       white_noise_ops, voronoi_ops,   magic_ops,
-                            brick_ops,  image_ops,       layer_ops,       strand_ops};
+                            brick_ops,  gabor_ops,       image_ops,       layer_ops,     strand_ops};
 
 }  // namespace
 

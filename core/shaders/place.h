@@ -1,6 +1,7 @@
 // Where a shader's program runs: a batch of places on surfaces, and what their rays and objects tell of them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -45,6 +46,17 @@ enum RayKind : std::uint32_t { camera_ray = 1, diffuse_ray = 2, glossy_ray = 4, 
 /// Beside its kind, a ray's word tells how many transparent surfaces its path has passed so far.
 inline constexpr std::uint32_t ray_kinds = 31, passed_one = 32;
 
+/// What of the half space about a normal is open within a distance, as rays find it.
+struct OpennessQuestion {
+    Vec3b normal;  ///< world, unit
+    Batch distance_m;
+    std::uint32_t ray_count;
+    bool only_own;  ///< what other objects hide counts as open
+};
+
+/// Answers with [0, 1] for the lanes' places, whichever neighbour asks.
+using Openness = std::function<Batch(const OpennessQuestion&)>;
+
 /// What the lanes' places have of their own, and their rays.
 struct PlaceLanes {
     std::array<const Mesh*, batch_size> meshes;  ///< null: the world, at a direction, or a lamp
@@ -57,7 +69,8 @@ struct PlaceLanes {
     WordBatch ray_kind;  ///< with what it passed
     WordBatch bounce;
     const CameraFacts* camera;
-    Batch footprint_m;  ///< how wide the ray's part of a pixel is there
+    Batch footprint_m;                   ///< how wide the ray's part of a pixel is there
+    const Openness* openness = nullptr;  ///< null: all is open
 
     /// Or a lamp, which has no object either.
     bool is_world() const { return meshes[0] == nullptr; }

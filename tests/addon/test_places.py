@@ -63,5 +63,16 @@ def test_turned_normals_are_lit_as_in_cycles(cases: Any, folder: Path, host: Hos
     assert not wrong
 
 
+def test_occlusion_is_that_of_cycles(host: Host, tmp_path: Path) -> None:
+    """Of rays in both: pixels are noisy, means are not."""
+    wrong = {}
+    for name in host.run("occlusion_cases", tmp_path):
+        ours, cycles = (picture(tmp_path / f"{name}_{engine}.exr") for engine in ("PIVOT", "CYCLES"))
+        off = np.abs(ours - cycles).mean() / cycles.mean(), ours.mean() / cycles.mean() - 1
+        if off[0] > 0.03 or abs(off[1]) > 0.005:
+            wrong[name] = off
+    assert not wrong
+
+
 def test_nothing_is_said_of_what_is_shown(cases: Any) -> None:
     assert cases["reports"] == []

@@ -109,6 +109,13 @@ ROWS: dict[str, Row] = {
         )
         for falloff in ("RANDOM_WALK", "RANDOM_WALK_SKIN", "RANDOM_WALK_FIXED_RADIUS", "BURLEY")
     },
+    "Hair: Reflection": ("ShaderNodeBsdfHair", {"component": "Reflection"}, {"Color": RED, "RoughnessU": 0.3}),
+    "Hair: Reflection, Offset": (
+        "ShaderNodeBsdfHair",
+        {"component": "Reflection"},
+        {"Color": RED, "RoughnessU": 0.3, "Offset": 0.5},
+    ),
+    "Hair: Transmission": ("ShaderNodeBsdfHair", {"component": "Transmission"}, {"Color": RED, "RoughnessU": 0.3}),
     **_by_distribution(),
     **_principled(),
 }

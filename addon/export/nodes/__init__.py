@@ -14,7 +14,7 @@ import numpy as np
 
 from ...report import Reporter
 from ..program import Program, UnknownOp, Value
-from . import colours, curves, geometry, images, lamps, maths, normals, object, ray, skies, textures
+from . import colours, constants, curves, geometry, images, lamps, maths, normals, object, ray, skies, textures
 from .row import Row
 
 MID_GREY = 0.5
@@ -22,6 +22,7 @@ MID_GREY = 0.5
 # By bpy.types.Node.type.
 ROWS: dict[str, Row] = (
     maths.ROWS
+    | constants.ROWS
     | colours.ROWS
     | curves.ROWS
     | geometry.ROWS
@@ -91,9 +92,10 @@ def active_tree(data: bpy.types.ID) -> bpy.types.NodeTree | None:
 
 
 def output_socket(tree: bpy.types.NodeTree, name: str) -> Socket | None:
-    """An input of the tree's active output, "Surface" or "Volume", as Cycles chooses it."""
+    """An input of the tree's active output, "Surface" or "Volume", as Cycles chooses it; None: it has none of them."""
     output = tree.get_output_node("CYCLES")
-    return None if output is None else Socket(output.inputs[name])
+    found = None if output is None else output.inputs.get(name)
+    return None if found is None else Socket(found)
 
 
 def source(target: Socket) -> Socket | None:
@@ -138,9 +140,23 @@ def _through(output: Socket) -> Socket | None:
         nodes = node.node_tree.nodes if node.node_tree else ()
         end = next((n for n in nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
         return _matching(end.inputs, output.socket, (*groups, node)) if end else None
+    if node.type == "MENU_SWITCH":  # from Blender 5.0
+        return _chosen(output)
     if node.type == "GROUP_INPUT":
         return _matching(groups[-1].inputs, output.socket, groups[:-1]) if groups else None
     return output
+
+
+def _chosen(output: Socket) -> Socket:
+    """The input that a Menu Switch's menu names; the output itself where that is not known."""
+    menu = source(output.input("Menu"))
+    if menu is None or output.socket.identifier != "Output":
+        return output
+    if menu.socket.is_output and menu.node.bl_idname != "FunctionNodeInputMenu":
+        return output
+    name = menu.node.value if menu.socket.is_output else menu.socket.default_value
+    item = next((socket for socket in output.node.inputs[1:] if socket.name == name), None)
+    return output if item is None else Socket(item, output.groups)
 
 
 def _matching(sockets: Any, socket: bpy.types.NodeSocket, groups: tuple[bpy.types.Node, ...]) -> Socket | None:

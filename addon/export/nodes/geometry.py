@@ -80,8 +80,8 @@ def _geometry(node: Node) -> Value:
 
 
 def default_tangent(node: Node) -> Value:
-    """Of meshes: around z."""
-    return _radial_tangent(node, "Z")
+    """Along curves; of meshes around z."""
+    return node.op("along_curve", _radial_tangent(node, "Z"))
 
 
 def _radial_tangent(node: Node, axis: str) -> Value:

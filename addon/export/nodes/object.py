@@ -54,6 +54,17 @@ def _hair_info(node: Node) -> Value:
     return mesh_attribute(node, f"strand:{node.output.lower()}")[0]
 
 
+def _point_info(node: Node) -> Value:
+    """Of a point cloud's balls, in world space; 0 of all else. [Cycles 4.5 geom/point.h]"""
+    value = mesh_attribute(node, f"point:{node.output.lower()}", 0.0)
+    if node.output == "Position":
+        return node.op("world_from_object_point", value[:3]) * value[3]
+    if node.output == "Radius":
+        along = node.op("world_from_object_vector", node.program.colour([3**-0.5] * 3))
+        return node.op("vector_length", along) * value[0]
+    return value[0]
+
+
 def _volume_info(node: Node) -> Value:
     value = mesh_attribute(node, f"attribute:{node.output.lower()}")
     return value[:3] if node.output == "Color" else value[4]
@@ -64,6 +75,7 @@ ROWS: dict[str, Row] = {
     "VERTEX_COLOR": _color_attribute,
     "OBJECT_INFO": _object_info,
     "PARTICLE_INFO": _particle_info,
+    "POINT_INFO": _point_info,
     "VOLUME_INFO": _volume_info,
     "HAIR_INFO": _hair_info,
 }

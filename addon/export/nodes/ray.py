@@ -1,4 +1,4 @@
-"""Nodes that tell of the ray that sees a place, and of the camera."""
+"""Nodes that tell of the ray that sees a place, of others that leave it, and of the camera."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ _RAYS = {
     "Is Reflection Ray": _DIFFUSE_RAY | _GLOSSY_RAY,
     "Is Transmission Ray": _TRANSMISSION_RAY,
 }
+_WORLD_DISTANCE_M = 10.0  # as Blender adds worlds
 
 
 def _light_path(node: Node) -> Value:
@@ -27,6 +28,17 @@ def _light_path(node: Node) -> Value:
         return node.op("transparent_depth")
     node.warn(f"{node.output} is not supported, it is 0")
     return node.program.number(0.0)
+
+
+def _ambient_occlusion(node: Node) -> Value:
+    settings = node.node
+    numbers = [settings.samples, settings.inside, settings.only_local]
+    distance = node.number("Distance")
+    if distance.is_always(0.0) and not node.is_linked("Distance"):
+        node.warn(f"Distance 0, the world's, is not supported, it is {_WORLD_DISTANCE_M:g} m")
+        distance = node.program.number(_WORLD_DISTANCE_M)
+    share = node.op("openness", node.normal(), distance, settings=numbers)
+    return share if node.output == "AO" else node.colour("Color") * share
 
 
 def _camera_data(node: Node) -> Value:
@@ -44,6 +56,7 @@ def _fresnel(node: Node) -> Value:
 
 ROWS: dict[str, Row] = {
     "LIGHT_PATH": _light_path,
+    "AMBIENT_OCCLUSION": _ambient_occlusion,
     "CAMERA": _camera_data,
     "LAYER_WEIGHT": _layer_weight,
     "FRESNEL": _fresnel,

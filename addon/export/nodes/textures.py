@@ -193,6 +193,20 @@ def _checker(node: Node) -> Value:
     return node.program.mixed(is_odd, node.colour("Color2"), node.colour("Color1"))
 
 
+def _gabor(node: Node) -> Value:
+    point, flat = texture_vector(node) * node.number("Scale"), node.node.gabor_type == "2D"
+    isotropy = 1.0 - node.number("Anisotropy").clamped()
+    orientation = node.number("Orientation 2D") if flat else node.vector("Orientation 3D")
+    result = node.op(
+        "gabor_2d" if flat else "gabor_3d",
+        point[:2] if flat else point,
+        node.number("Frequency"),
+        isotropy,
+        orientation,
+    )
+    return result[("Value", "Phase", "Intensity").index(node.output)]
+
+
 def _gradient(node: Node) -> Value:
     kind, point = node.node.gradient_type, texture_vector(node)
     x = point[0]
@@ -228,6 +242,7 @@ ROWS: dict[str, Row] = {
     "TEX_MAGIC": _magic,
     "TEX_BRICK": _brick,
     "TEX_CHECKER": _checker,
+    "TEX_GABOR": _gabor,
     "TEX_GRADIENT": _gradient,
     "TEX_WHITE_NOISE": _white_noise,
 }

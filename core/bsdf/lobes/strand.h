@@ -3,8 +3,10 @@
 // its round surface.
 //
 // [Cycles 4.5 closure/bsdf_hair.h], from whose equations this is: along the strand the half angle is distributed as
-// Cauchy's, around it as a cosine (Reflection) or Cauchy's (Transmission). What they say of the other side of the
-// surface is no light of lamps; but samples of the BSDF, which find worlds and other surfaces, carry it.
+// Cauchy's, around it as a cosine (Reflection) or Cauchy's (Transmission). Samples of the BSDF, which find worlds and
+// other surfaces, carry more of it than lamps do: these do not light Reflection from further around than a quarter
+// turn, nor Transmission from above the surface. Behind the surface, where Cycles' light tree chooses no lamp, its
+// samples of the BSDF find each at its full weight, so that Reflection has all of that.
 #pragma once
 
 #include "core/bsdf/base.h"
@@ -54,8 +56,8 @@ struct Strand {
     /// Of lamps.
     Vec3<T> eval(const Vec3<T>& wo_local, const Vec3<T>& wi_local) const {
         const T phi = phi_of(wi_local);
-        const Mask<T> is_lit =
-            select(is_behind(), -wi_local.z, wi_local.z) > T(0) && (is_behind() || abs(phi) < T(0.5f) * pi<T>);
+        const Mask<T> is_below = wi_local.z < T(0);
+        const Mask<T> is_lit = is_below || (!is_behind() && abs(phi) < T(0.5f) * pi<T>);
         return select(is_lit, color * (pdf_omega(wo_local, wi_local) * of_all()), Vec3<T>(T(0)));
     }
     /// Of all else.
@@ -85,8 +87,8 @@ struct Strand {
     Vec3<T> albedo(const Vec3<T>&) const {
         const T quarter_turn = T(0.5f) * pi<T>;
         const auto cosine_below = [&](T phi) { return sin(T(0.5f) * min(max(phi / around, T(-1) * pi<T>), pi<T>)); };
-        const T from = max(-quarter_turn, -quarter_turn - gamma_o), to = min(quarter_turn, quarter_turn - gamma_o);
-        const T reflected = T(0.5f) * (cosine_below(to) - cosine_below(from));
+        const T above_but_far = cosine_below(quarter_turn + abs(gamma_o)) - cosine_below(quarter_turn);
+        const T reflected = T(1) - T(0.5f) * above_but_far;
         const T through =
             (atan((gamma_o + quarter_turn) / around) - atan((gamma_o - quarter_turn) / around)) / turned_range(T(0.5f));
         return color * select(is_behind(), through, reflected);

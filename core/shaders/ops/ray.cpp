@@ -67,6 +67,15 @@ Batch layer_weight_facing(const Place& place, const Vec3b& normal, Batch blend) 
     return one - select(blend == half, facing, power(facing, exponent));
 }
 
+/// settings: how many rays tell, whether those into the surface, and whether the object hides itself alone.
+/// [Cycles 4.5 svm/ao.h]
+Batch openness(Settings<3> settings, const Place& place, const Vec3b& normal, Batch distance_m) {
+    const auto ray_count = static_cast<std::uint32_t>(settings[0]);
+    if (!place.lanes.openness || ray_count == 0) return one;
+    const Vec3b out = unit(settings[1] != 0.0f ? -normal : normal);
+    return (*place.lanes.openness)({out, distance_m, ray_count, settings[2] != 0.0f});
+}
+
 constexpr std::array ops{
     op<ray_is>("ray_is"),
     op<ray_length>("ray_length"),
@@ -75,6 +84,7 @@ constexpr std::array ops{
     op<fresnel>("fresnel"),
     op<layer_weight_fresnel>("layer_weight_fresnel"),
     op<layer_weight_facing>("layer_weight_facing"),
+    op<openness>("openness"),
 };
 
 }  // namespace

@@ -31,6 +31,20 @@ Vec3b strand_tangent(const Place& place) {
     return unit(t.world_from_object.vector(t.corner_b - t.corner_a));
 }
 
+/// What the Hair BSDF lies along: a curve, or the other edge of a mesh's triangle from its first corner; unit.
+/// [Cycles 4.5 svm/closure.h, geom/triangle.h, triangle_dPdudv]
+Vec3b hair_tangent(const Place& place) {
+    if (place.lanes.is_world()) return Vec3b(Batch(0.0f));
+    const HitTriangleOf<Batch>& t = place.lanes.corners;
+    return select(is_strand(place) > Batch(0.0f), strand_tangent(place),
+                  unit(t.world_from_object.vector(t.corner_c - t.corner_a)));
+}
+
+/// Along a curve; elsewhere what else there is.
+Vec3b along_curve(const Place& place, const Vec3b& otherwise) {
+    return select(is_strand(place) > Batch(0.0f), strand_tangent(place), otherwise);
+}
+
 /// Towards the viewer, across the curve; 0 of a mesh. [Cycles 4.5 geom/curve.h, curve_tangent_normal]
 Vec3b strand_tangent_normal(const Place& place) {
     const Vec3b along = strand_tangent(place), wo = place.lanes.wo;
@@ -38,10 +52,9 @@ Vec3b strand_tangent_normal(const Place& place) {
 }
 
 constexpr std::array ops{
-    op<is_strand>("is_strand"),
-    op<strand_thickness>("strand_thickness"),
-    op<strand_tangent>("strand_tangent"),
-    op<strand_tangent_normal>("strand_tangent_normal"),
+    op<is_strand>("is_strand"),           op<strand_thickness>("strand_thickness"),
+    op<strand_tangent>("strand_tangent"), op<hair_tangent>("hair_tangent"),
+    op<along_curve>("along_curve"),       op<strand_tangent_normal>("strand_tangent_normal"),
 };
 
 }  // namespace

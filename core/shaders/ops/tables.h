@@ -20,6 +20,7 @@ std::span<const OpKind> white_noise_ops();
 std::span<const OpKind> voronoi_ops();
 std::span<const OpKind> magic_ops();
 std::span<const OpKind> brick_ops();
+std::span<const OpKind> gabor_ops();
 std::span<const OpKind> attribute_ops();
 std::span<const OpKind> ray_ops();
 std::span<const OpKind> normal_ops();

@@ -151,6 +151,38 @@ def _points() -> None:
     beside.modifiers.new("points", "NODES").node_group = group
 
 
+def _points_told() -> None:
+    """What Point Info tells of them, as colours that shine."""
+    _points()
+    tree = bpy.data.materials["red"].node_tree
+    info, apart, joined, shines = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("PointInfo", "SeparateXYZ", "CombineXYZ", "Emission")
+    )
+    radius = tree.nodes.new("ShaderNodeMath")
+    radius.operation, radius.inputs[1].default_value = "MULTIPLY", 5
+    for output, end in (
+        (info.outputs["Radius"], radius.inputs[0]),
+        (info.outputs["Position"], apart.inputs[0]),
+        (info.outputs["Random"], joined.inputs["X"]),
+        (radius.outputs[0], joined.inputs["Y"]),
+        (apart.outputs["X"], joined.inputs["Z"]),
+        (joined.outputs[0], shines.inputs["Color"]),
+        (shines.outputs[0], tree.nodes["Material Output"].inputs["Surface"]),
+    ):
+        tree.links.new(output, end)
+
+
+def _strand_on_mesh() -> None:
+    """A ball beside it of Hair BSDF, which on a mesh lies along edges of the triangles, and no Offset counts."""
+    _diffuse_in_sun()
+    parts.world((0.2, 0.2, 0.2))
+    _, node = parts.shaded("strand", "ShaderNodeBsdfHair", Color=BROWN, RoughnessU=0.3, Offset=0.5)
+    node.component = "Reflection"
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.7, location=(1, -1.5, 0.5))
+    bpy.context.object.data.materials.append(bpy.data.materials["strand"])
+    bpy.context.view_layer.objects.active = bpy.data.objects["Sphere"]
+
+
 def _round() -> None:
     _diffuse_in_sun()
     bpy.context.scene.cycles_curves.shape = "THICK"
@@ -181,4 +213,7 @@ CASES = {
     "told": _told,
     "curves": _curves,
     "points": _points,
+    "points_told": _points_told,
 }
+if bpy.app.version >= (4, 0):  # 3.4's lamps, which no light tree chooses, leave out more of what is behind the surface
+    CASES["strand_on_mesh"] = _strand_on_mesh

@@ -41,6 +41,9 @@ RANGES = {  # of inputs that are drawn; others stay
     "Bias": (-0.5, 0.5),
     "Brick Width": (0.2, 1),
     "Row Height": (0.1, 0.5),
+    "Frequency": (0.5, 4),
+    "Anisotropy": (0.1, 0.9),
+    "Orientation 2D": (-3, 3),
 }
 
 Settings = dict[str, Any]
@@ -106,6 +109,9 @@ def _cases() -> Iterator[tuple[str, str, str, Settings]]:
     for index in range(4):
         settings = {"offset": 0.3 * index, "offset_frequency": index + 1, "squash": 1.3, "squash_frequency": 4 - index}
         yield f"Brick {index}", "Brick", "Color" if index % 2 else "Fac", settings
+    for kind, output in itertools.product(_choices("Gabor", "gabor_type"), ("Value", "Phase", "Intensity")):
+        yield f"Gabor {kind} {output}", "Gabor", output, {"gabor_type": kind}
+        yield f"Gabor {kind} {output} along", "Gabor", output, {"gabor_type": kind, "along": True}
     for output in ("Color", "Fac"):
         yield f"Checker {output}", "Checker", output, {}
     for size, output in itertools.product(DIMENSIONS, ("Value", "Color")):
@@ -140,6 +146,10 @@ def _tile(name: str, location: Any, kind: str, output: str, settings: Settings) 
             socket.default_value = draw.uniform(*RANGES[socket.name])
         elif socket.type == "RGBA":
             socket.default_value = (draw.random(), draw.random(), draw.random(), 1)
+        elif socket.identifier == "Orientation 3D":
+            socket.default_value = (draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1))
+    if "along" in settings:
+        node.inputs["Anisotropy"].default_value = 1
     vector = _steps(tree, [coordinate + draw.uniform(-1, 1) for coordinate in location])
     tree.links.new(vector, _input(node, "Vector"))
     for socket in node.inputs:
