@@ -7,7 +7,7 @@ import time
 
 _BETWEEN_S = 1 / 15  # pictures: what Blender's drawing leaves of it is theirs
 _LONGEST_S = 0.05  # of a picture
-_SHORTEST_S = 0.015
+_SHORTEST_S = 0.006
 _DRAWS = 1.5  # a picture that no draw waits for is ready by the second draw after the one that it is of
 _MOST_PX = 16.0  # edge of a pixel
 _STEP = 2**0.25  # edges differ by: a little more or less time changes none
