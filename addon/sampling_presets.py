@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
+from bpy.props import EnumProperty
 
 from . import denoise
 from .engine import PivotRenderEngine
 
-SHIPPED = Path(__file__).parent / "presets"
+SHIPPED = {name: Path(__file__).parent / "presets" / f"{name}.py" for name in ("preview", "still", "animation")}
+_TOOLTIPS = {name: (ast.get_docstring(ast.parse(file.read_text())) or "").rstrip(".") for name, file in SHIPPED.items()}
 
 
 class PIVOT_PT_sampling_presets(PresetPanel, bpy.types.Panel):
@@ -21,14 +24,18 @@ class PIVOT_PT_sampling_presets(PresetPanel, bpy.types.Panel):
     preset_add_operator = "render.pivot_sampling_preset_add"
     COMPAT_ENGINES = frozenset({PivotRenderEngine.bl_idname})
 
-    def draw(self, context: bpy.types.Context) -> None:
-        """As Blender's own, which before 4.2 looks for none in the folder of an addon."""
-        self.layout.emboss = "PULLDOWN_MENU"
-        self.layout.operator_context = "EXEC_DEFAULT"
+    def draw(self, _: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.emboss = "PULLDOWN_MENU"
+        layout.operator_context = "EXEC_DEFAULT"
+        column = layout.column(align=True)
+        for name in SHIPPED:
+            column.operator(PIVOT_OT_sampling_preset.bl_idname, text=name.title(), translate=False).preset = name
+        own = bpy.utils.preset_paths(self.preset_subdir)
         self.path_menu(
-            [str(SHIPPED), *bpy.utils.preset_paths(self.preset_subdir)],
+            own or [str(folder) for folder in {file.parent for file in SHIPPED.values()}],  # it wants one that is there
             self.preset_operator,
-            filter_ext=lambda extension: extension == ".py",
+            filter_ext=lambda extension: bool(own) and extension == ".py",
             add_operator=self.preset_add_operator,
         )
 
@@ -37,6 +44,25 @@ class PIVOT_PT_sampling_presets(PresetPanel, bpy.types.Panel):
         """After a preset, which Blender 3.4 gives no path of: ask for no denoiser where there is none."""
         if not denoise.is_there():
             context.scene.pivot.denoise = context.scene.pivot.denoise_viewport = "NONE"
+
+
+class PIVOT_OT_sampling_preset(bpy.types.Operator):
+    """One that comes with Pivot, whose tooltip says what it is for"""
+
+    bl_idname = "render.pivot_sampling_preset"
+    bl_label = "Use Sampling Preset"
+    bl_options = frozenset({"INTERNAL"})
+
+    preset: EnumProperty(items=[(name, name.title(), "") for name in SHIPPED])
+
+    @classmethod
+    def description(cls, _: bpy.types.Context, properties: PIVOT_OT_sampling_preset) -> str:
+        return _TOOLTIPS[properties.preset]
+
+    def execute(self, _: bpy.types.Context) -> set[str]:
+        menu = PIVOT_PT_sampling_presets.__name__
+        result: set[str] = bpy.ops.script.execute_preset(filepath=str(SHIPPED[self.preset]), menu_idname=menu)
+        return result
 
 
 class PIVOT_OT_sampling_preset_add(AddPresetBase, bpy.types.Operator):
@@ -75,7 +101,7 @@ class PIVOT_OT_sampling_preset_add(AddPresetBase, bpy.types.Operator):
     )
 
 
-_CLASSES = (PIVOT_PT_sampling_presets, PIVOT_OT_sampling_preset_add)
+_CLASSES = (PIVOT_PT_sampling_presets, PIVOT_OT_sampling_preset, PIVOT_OT_sampling_preset_add)
 
 
 def register() -> None:

@@ -44,3 +44,8 @@ def test_an_artists_own_comes_back(case: Any) -> None:
     mine, again = case["mine"]
     assert again == mine
     assert case["is gone"]
+
+
+def test_the_menu_shows_them_all(case: Any) -> None:
+    names = [name.title() for name in SHIPPED]
+    assert case["listed"] == [names, [*names, "Mine"]]

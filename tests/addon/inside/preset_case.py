@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 from typing import Any
+from unittest.mock import MagicMock
 
 import bpy
 import parts
@@ -18,12 +19,12 @@ def main(_: Path) -> dict[str, Any]:
     pivot = bpy.context.scene.pivot
     defaults = _settings(pivot)
     shipped, assigned = {}, {}
-    for file in sorted(sampling_presets.SHIPPED.glob("*.py")):
-        assigned[file.stem] = re.findall(r"^pivot\.(\w+) =", file.read_text(), re.MULTILINE)
-        assert bpy.ops.script.execute_preset(filepath=str(file), menu_idname=MENU) == {"FINISHED"}
-        shipped[file.stem] = _settings(pivot)
+    for name, file in sampling_presets.SHIPPED.items():
+        assigned[name] = re.findall(r"^pivot\.(\w+) =", file.read_text(), re.MULTILINE)
+        assert bpy.ops.render.pivot_sampling_preset(preset=name) == {"FINISHED"}
+        shipped[name] = _settings(pivot)
     found, denoise._library = denoise._library, lambda: None
-    bpy.ops.script.execute_preset(filepath=str(sampling_presets.SHIPPED / "still.py"), menu_idname=MENU)
+    bpy.ops.render.pivot_sampling_preset(preset="still")
     without_denoiser = _settings(pivot)
     denoise._library = found
     pivot.integrator, pivot.samples, pivot.denoise = "ANALYTIC", 7, "ALL" if denoise.is_there() else "NONE"
@@ -32,7 +33,7 @@ def main(_: Path) -> dict[str, Any]:
     file = bpy.utils.preset_find("Mine", sampling_presets.PIVOT_PT_sampling_presets.preset_subdir)
     pivot.integrator, pivot.samples, pivot.max_bounces, pivot.denoise = "MONTE_CARLO", 9, 1, "NONE"
     bpy.ops.script.execute_preset(filepath=file, menu_idname=MENU)
-    again = _settings(pivot)
+    again, listed = _settings(pivot), _listed()
     bpy.ops.render.pivot_sampling_preset_add(name="Mine", remove_name=True)
     return {
         "defaults": defaults,
@@ -42,9 +43,21 @@ def main(_: Path) -> dict[str, Any]:
         "without denoiser": without_denoiser,
         "mine": [mine, again],
         "is gone": not Path(file).exists(),
+        "listed": [_listed(), listed],
     }
 
 
 def _settings(pivot: Any) -> dict[str, Any]:
     values = sampling_presets.PIVOT_OT_sampling_preset_add.preset_values
     return {name: getattr(pivot, name) for name in (value.removeprefix("pivot.") for value in values)}
+
+
+def _listed() -> list[str]:
+    """What the panel's menu shows to choose from."""
+    panel: Any = sampling_presets.PIVOT_PT_sampling_presets
+    shown = MagicMock()
+    shown.preset_subdir, shown.preset_operator, shown.bl_idname = panel.preset_subdir, panel.preset_operator, MENU
+    shown.preset_add_operator = panel.preset_add_operator
+    shown.path_menu = lambda *paths, **options: panel.path_menu(shown, *paths, **options)
+    panel.draw(shown, bpy.context)
+    return [kwargs["text"] for _, _, kwargs in shown.layout.mock_calls if kwargs.get("text")]
