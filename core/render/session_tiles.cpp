@@ -318,6 +318,8 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
         shade_by_index(*scene_, settings_, lights_->lights, indexed, samples, named);
     else
         trace_paths(*scene_, settings_, rays, samplers, samples, passes, named);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!(rays[i].far_m > 0.0f)) samples[i] = {};  // the lens sees nothing there
     if (catchers_)
         tell_catchers(
             *scene_, settings_, rays, samplers, samples,
@@ -330,7 +332,6 @@ std::vector<Sample> Session::sample_row(const Round& round, const SamplePass& pa
     for (int x = x0; x < x1; ++x) {
         const std::size_t square = first_square + static_cast<std::size_t>(x - x0);
         for (const std::size_t end = at + count_of(round, pass, square); at < end; ++at) {
-            if (!(rays[at].far_m > 0.0f)) samples[at] = {};  // the lens sees nothing there
             if (!is_finite(samples[at])) {
                 report_bad_sample(camera.window.x0 + x, frame_y, rays[at]);
                 samples[at] = {.alpha = 0.0f};

@@ -9,7 +9,7 @@ from beside_cycles import FLIP, TOLERANCE, flip
 from blender_host import Host
 from exr import passes_by_name
 
-CASES = ("over_world", "over_nothing", "beside", "foggy_world", "foggy")
+CASES = ("over_world", "over_nothing", "beside", "foggy_world", "foggy", "fisheye")
 
 
 @pytest.fixture(scope="module")

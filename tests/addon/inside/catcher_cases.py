@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +12,15 @@ import parts
 from cycles_cases import SPHERE, _ball, _cycles, _pivot, on_clay
 from visibility_cases import _glossy
 
-# Whether the film is transparent, whether there is a pass of the catcher, and the density of the world's fog.
+# Whether the film is transparent, whether there is a pass of the catcher, and the density of the world's fog; the last
+# by a lens that sees a circle.
 CASES = {
     "over_world": (False, False, 0.0),
     "over_nothing": (True, False, 0.0),
     "beside": (True, True, 0.0),
     "foggy_world": (False, False, 0.04),
     "foggy": (True, False, 0.04),
+    "fisheye": (False, False, 0.0),
 }
 
 
@@ -34,18 +37,30 @@ def main(folder: Path) -> Any:
     parts.light("key", "POINT", (-3, -2, 3), energy=200, **SPHERE)
     tree = parts.world((0.2, 0.25, 0.3)).node_tree
     scatter = tree.nodes.new("ShaderNodeVolumeScatter")
-    bpy.context.scene.cycles.volume_bounces = 1
     for name, (is_transparent, has_pass, density) in CASES.items():
         scatter.inputs["Density"].default_value = density
+        surround = tree.nodes["World Output"].inputs["Volume"]
+        for link in surround.links:
+            tree.links.remove(link)
         if density:
-            tree.links.new(scatter.outputs[0], tree.nodes["World Output"].inputs["Volume"])
+            tree.links.new(scatter.outputs[0], surround)
+        if name == "fisheye":
+            _see_a_circle(bpy.context.scene.camera.data)
         bpy.context.scene.render.film_transparent = is_transparent
         bpy.context.view_layer.cycles.use_pass_shadow_catcher = has_pass
-        _cycles(folder / f"{name}_CYCLES.exr", 1, file_format="OPEN_EXR_MULTILAYER")
-        _pivot(folder / f"{name}_MONTE_CARLO.exr", 1, "JOINT", file_format="OPEN_EXR_MULTILAYER")
+        bounces = 0 if density else 1  # fog that scatters twice is noisy
+        _cycles(folder / f"{name}_CYCLES.exr", bounces, file_format="OPEN_EXR_MULTILAYER")
+        _pivot(folder / f"{name}_MONTE_CARLO.exr", bounces, "JOINT", file_format="OPEN_EXR_MULTILAYER")
         if name == "beside":
             pivot = bpy.context.scene.pivot
             pivot.integrator, pivot.indirect = "ANALYTIC", "VSGL"
             _pivot(folder / f"{name}_ANALYTIC.exr", 1, "JOINT", 8, file_format="OPEN_EXR_MULTILAYER")
             pivot.integrator = "MONTE_CARLO"
     return list(CASES)
+
+
+def _see_a_circle(camera: bpy.types.Camera) -> None:
+    camera.type = "PANO"
+    settings = sys.modules["pivot.export.optics"].panorama_settings(camera)
+    settings.panorama_type, settings.fisheye_fov = "FISHEYE_EQUISOLID", 1.6
+    settings.fisheye_lens = 20
