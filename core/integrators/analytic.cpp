@@ -66,9 +66,8 @@ void cross_media(const Scene& scene, const RenderSettings& settings, const Analy
     MediaRay media_ray(scene.media());
     for (std::size_t i = 0; i < rays.size(); ++i) {
         LookRay& look = rays[i];
-        Ray ray = look.ray;
-        if (hits[i]) ray.far_m = hits[i]->distance_m;
-        media_ray.follow(ray, nullptr);
+        const float far_m = hits[i] ? hits[i]->distance_m : look.ray.far_m;
+        media_ray.follow(part_of(look.ray, look.ray.near_m, far_m), nullptr);  // what is clipped of media is not there
         OnFogLight on_light;
         if (groups)
             on_light = [&](std::uint32_t group, const Rgb& light) {

@@ -16,7 +16,7 @@ struct Before {
 
 Before media_before(MediaRay& media, const Ray& ray, float distance_m, const Sampler& sampler) {
     RandomStream stream{stream_seed(sampler, media_dimension)};
-    media.follow(part_of(ray, 0.0f, distance_m), &stream);
+    media.follow(part_of(ray, ray.near_m, distance_m), &stream);
     return {media.emitted(), media.through()};
 }
 

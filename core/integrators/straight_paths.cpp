@@ -65,7 +65,7 @@ void start_paths(const Work& work, Fog* fog, std::span<const Ray> camera_rays, P
                   .spread = width.per_m,
                   .emission_weight = 1.0f,
                   .sample = static_cast<std::uint32_t>(i)};
-        float from_m = 0.0f;
+        float from_m = camera_rays[i].near_m;  // what is clipped of media, too, is not there
         std::uint32_t part = 0;
         const auto cross_to = [&](float distance_m) {
             path.arrival.footprint_m = width.at(from_m);

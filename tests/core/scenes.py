@@ -63,12 +63,13 @@ def set_camera(
     target: tuple[float, float, float] = (0.0, 0.0, 0.0),
     size: tuple[int, int] = (64, 64),
     half_width: float = 0.4,
+    **settings: object,
 ) -> None:
-    """half_width: of the view plane at distance 1."""
+    """half_width: of the view plane at distance 1. settings: others of Scene.set_camera."""
     width, height = size
     half_height = half_width * height / width
     plane = (-half_width, half_width, -half_height, half_height)
-    scene.set_camera(look_at(eye, target), plane, width, height)
+    scene.set_camera(look_at(eye, target), plane, width, height, **settings)
 
 
 def render(scene: pivot_core.Scene, pass_name: str = "Combined", **settings: object) -> Floats:

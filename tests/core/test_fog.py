@@ -131,6 +131,19 @@ def test_fog_as_dense_as_a_wall_scatters_at_its_face(per_m: float) -> None:
     assert_is(found, truth, tolerance=2 / per_m + 3e-3 + rounding)
 
 
+@pytest.mark.parametrize("integrator", ["MONTE_CARLO", "ANALYTIC"])
+def test_fog_before_the_near_clip_is_not_there(integrator: str) -> None:
+    fog, light = replace(HAZE, g=0.3), LIGHTS["sphere"]
+    eye, target = np.array(PLACES["everywhere"][0]), np.array(TARGETS[0])
+    on_the_way = 0.25 * (target - eye) / np.linalg.norm(target - eye)
+    seen = []
+    for start, clip_m in ((eye, 0.25), (eye + on_the_way, 0.0)):
+        scene = scene_of([fog], [light])
+        set_camera(scene, tuple(start), tuple(target), (8, 8), 1e-5, clip_start_m=clip_m)
+        seen.append(render(scene, samples=64, max_bounces=0, integrator=integrator)[..., :3].mean((0, 1)))
+    np.testing.assert_allclose(*seen, rtol=2e-3)
+
+
 def test_no_sun_arrives_through_endless_fog() -> None:
     scene = scene_of([HAZE], [LIGHTS["sun"]])
     assert_is(estimate(scene, (0, 0, 0), (0, 1, 0)), BLACK)
