@@ -1,4 +1,4 @@
-"""What Geometry Nodes keep for each instance: attributes of the domain *Instance*, which materials read by *Instancer*."""
+"""What Geometry Nodes keep for each instance: attributes of the domain Instance, which materials read of Instancers."""
 
 from __future__ import annotations
 

@@ -48,9 +48,28 @@ class Instances:
         return np.where(self.is_instance[indices], self.random[indices], own)
 
 
-def particle_index(instance: bpy.types.DepsgraphObjectInstance) -> int:
-    """The number of the particle that an instance stands for, 0 for what is none."""
-    return instance.persistent_id[0] if instance.is_instance and instance.particle_system else 0
+def particle_numbers(
+    instance: bpy.types.DepsgraphObjectInstance, names: frozenset[str], frame: float
+) -> dict[str, tuple[float, ...]]:
+    """What Particle Info tells of what an instance stands for, of each four numbers: "Index" is always there, 0 of what
+    is no particle; of the other names those that Blender tells, of children none. frame: the scene's.
+    """
+    if not instance.is_instance or not instance.particle_system:
+        return {"Index": (0.0,) * 4}
+    index = instance.persistent_id[0]
+    result: dict[str, tuple[float, ...]] = {"Index": (float(index),) * 4}
+    particles = instance.particle_system.particles
+    if names and index < len(particles):
+        particle = particles[index]
+        numbers = {"Age": frame - particle.birth_time, "Lifetime": particle.lifetime, "Size": particle.size}
+        vectors = {
+            "Location": particle.location,
+            "Velocity": particle.velocity,
+            "Angular Velocity": particle.angular_velocity,
+        }
+        result |= {name: (number,) * 4 for name, number in numbers.items() if name in names}
+        result |= {name: (*vector, 1.0) for name, vector in vectors.items() if name in names}
+    return result
 
 
 def _random(words: NDArray[np.uint32]) -> NDArray[np.float32]:

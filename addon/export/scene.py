@@ -19,7 +19,7 @@ from .context import Context
 from .groups import Group, GroupMaker
 from .images import ImageCache, ImageTable
 from .instance_attributes import CAN_READ, InstanceAttributes
-from .instances import Instances, particle_index
+from .instances import Instances, particle_numbers
 from .light import export_light
 from .light_groups import light_group
 from .light_links import LightLinks
@@ -81,11 +81,14 @@ def _report_collections(parent: bpy.types.LayerCollection, reporter: Reporter) -
 
 _MakeGroups = Callable[[bpy.types.Object, Instances, int], list[Group]]
 _Way = tuple[InstanceAttributes, tuple[int, ...]] | None  # to what an instance has of its own; None: an object itself
+_Particle = dict[str, tuple[float, ...]]  # what Particle Info tells
+# Of a group: the indices of its instances, and of each what its materials ask for; None: they do not.
+_List = tuple[list[int], list[_Particle] | None, list[_Way] | None, frozenset[str]]
 
 
-def _of_instancers(group: Group) -> list[str]:
-    """The attributes of instancers and instances that its materials ask for."""
-    return [name for name in sorted(group.reads) if name.startswith("instancer:")]
+def _names(group: Group, kind: str) -> frozenset[str]:
+    """The attributes of a kind that its materials ask for: within it, as `attributes` has them."""
+    return frozenset(name.removeprefix(f"{kind}:") for name in group.reads if name.startswith(f"{kind}:")) - {""}
 
 
 class _Exporter:
@@ -99,11 +102,11 @@ class _Exporter:
         self._of_objects: dict[tuple[int, int], dict[str, Any]] = {}  # by the original object and its instancer
         self._groups: dict[tuple[Any, ...], list[Group]] = {}  # by the original object and the evaluated data
         self._instances: defaultdict[Group, list[int]] = defaultdict(list)
-        self._particles: defaultdict[Group, list[int]] = defaultdict(list)
+        self._particles: defaultdict[Group, list[_Particle]] = defaultdict(list)
         self._ways: defaultdict[Group, list[_Way]] = defaultdict(list)
         self._of_instancers: dict[int, InstanceAttributes] = {}  # by the instancer's address
         # By the same and the instancer: where its instances are listed, so that each is only looked up.
-        self._lists: dict[tuple[Any, ...], list[tuple[list[int], list[int] | None, list[_Way] | None]]] = {}
+        self._lists: dict[tuple[Any, ...], list[_List]] = {}
 
     def export_objects(self, is_shown: Callable[[bpy.types.Object], bool] | None) -> None:
         instances = self._context.depsgraph.object_instances
@@ -177,14 +180,16 @@ class _Exporter:
                 (
                     self._instances[group],
                     self._particles[group] if "particle:" in group.reads else None,
-                    self._ways[group] if CAN_READ and _of_instancers(group) else None,
+                    self._ways[group] if CAN_READ and _names(group, "instancer") else None,
+                    _names(group, "particle"),
                 )
                 for group in self._groups_of(make, of_any, blender_object, instancer, told, index)
             ]
-        for indices, particles, ways in lists:
+        for indices, particles, ways, of_particles in lists:
             indices.append(index)
             if particles is not None:
-                particles.append(particle_index(instance))
+                frame = self._context.depsgraph.scene_eval.frame_current_final
+                particles.append(particle_numbers(instance, of_particles, frame))
             if ways is not None:
                 ways.append(self._way(instance, instancer))
 
@@ -212,13 +217,14 @@ class _Exporter:
         groups = self._groups[key]
         if not groups:
             return []
-        there = self._of_object(blender_object, instancer)
+        # Blender gives an instance the colour of its instancer.
+        there = self._of_object(blender_object, instancer) | {"color": tuple(blender_object.color)}
         reads = frozenset().union(*(group.reads for group in groups))
         if not all(is_of_mesh(name) for name in reads):
             attributes = object_attributes(reads, blender_object, instancer, self._context.depsgraph)
             there = there | {"attributes": tuple(attributes.items())}
             for group in groups if instancer and not CAN_READ else ():
-                self._report_unreadable([name for name in _of_instancers(group) if name not in attributes], instancer)
+                self._report_unreadable(_names(group, "instancer"), attributes, instancer)
         return [replace(group, **there) for group in groups]
 
     def _add_instances(self, group: Group, indices: list[int], told: Instances) -> None:
@@ -243,7 +249,7 @@ class _Exporter:
             color=group.color,
             pass_index=group.pass_index,
             random=told.random_of(group.name, indices),
-            particle_index=np.array(self._particles[group], np.float32) if "particle:" in group.reads else None,
+            particle_index=self._of_particles(group, "Index")[:, 0] if "particle:" in group.reads else None,
             generated=told.generated[indices],
             uv=told.uv[indices],
             attributes=dict(group.attributes),
@@ -255,22 +261,27 @@ class _Exporter:
         if group.shines:
             self._context.placed.shining.update(indices)
 
-    def _report_unreadable(self, names: list[str], instancer: bpy.types.Object) -> None:
+    def _report_unreadable(self, names: frozenset[str], known: dict[str, Any], instancer: bpy.types.Object) -> None:
         if any(modifier.type == "NODES" for modifier in instancer.modifiers):
-            for name in names:
-                text = f"attribute '{name.partition(':')[2]}' of its instances cannot be read in this Blender, it is 0"
-                self._warn(instancer, f"{text}. Fix: realize the instances and read it as Geometry")
+            for name in sorted(names):
+                if f"instancer:{name}" not in known:
+                    text = f"attribute '{name}' of its instances cannot be read in this Blender, it is 0"
+                    self._warn(instancer, f"{text}. Fix: realize the instances and read it as Geometry")
 
     def _own_attributes(self, group: Group) -> dict[str, NDArray[np.float32]]:
         """(N, 4) of the attributes that some of a group's instances have for themselves."""
-        result = {}
-        for name in _of_instancers(group) if group in self._ways else []:
-            inner = name.partition(":")[2]
-            values = [None if way is None else way[0].value(inner, way[1]) for way in self._ways[group]]
+        result = {f"particle:{name}": self._of_particles(group, name) for name in _names(group, "particle")}
+        for name in _names(group, "instancer") if group in self._ways else ():
+            values = [None if way is None else way[0].value(name, way[1]) for way in self._ways[group]]
             if any(value is not None for value in values):
-                of_all = dict(group.attributes).get(name, (0.0,) * 4)
-                result[name] = np.array([of_all if value is None else value for value in values], np.float32)
+                of_all = dict(group.attributes).get(f"instancer:{name}", (0.0,) * 4)
+                each = [of_all if value is None else value for value in values]
+                result[f"instancer:{name}"] = np.array(each, np.float32)
         return result
+
+    def _of_particles(self, group: Group, name: str) -> NDArray[np.float32]:
+        """(N, 4)"""
+        return np.array([numbers.get(name, (0.0,) * 4) for numbers in self._particles[group]], np.float32)
 
     def _warn(self, blender_object: bpy.types.Object, text: str) -> None:
         self._context.reporter.warn(f"object '{blender_object.name}': {text}")

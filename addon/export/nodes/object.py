@@ -43,9 +43,9 @@ def _particle_info(node: Node) -> Value:
     node.program.attributes.add("particle:")
     if node.output in {"Index", "Random"}:
         return node.op(f"particle_{node.output.lower()}")
-    node.warn(f"{node.output} is not supported, it is 0")
-    zero = node.program.number(0.0)
-    return zero if node.output in {"Age", "Lifetime", "Size"} else zero.widened()
+    id_ = node.program.attribute_id(f"particle:{node.output}")
+    value = node.op("object_attribute", settings=[id_, 0.0])
+    return value[0] if node.output in {"Age", "Lifetime", "Size"} else value[:3]
 
 
 def _hair_info(node: Node) -> Value:

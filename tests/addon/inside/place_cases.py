@@ -51,16 +51,17 @@ def _instances() -> None:
     for index, (name, make) in enumerate(_of_instances()):
         shown = parts.quad(f"shown {name}", material=_emitting(name, make, None))
         shown.scale, shown.location = (0.1, 0.1, 1), (0, 30, 0)
-        bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=2, location=(0, 2 * index - 5, 0))
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=2, location=(0, 1.4 * index - 5.6, 0))
         instancer = bpy.context.object
-        instancer.scale, instancer["odd"] = (4, 0.8, 1), 0.2 + 0.1 * index
+        instancer.scale, instancer["odd"] = (4, 0.6, 1), 0.2 + 0.1 * index
         instancer.show_instancer_for_render = False
+        instancer.color = (0.2 * index, 0.5, 1 - 0.1 * index, 1)
         if name.startswith("particle"):
             instancer.modifiers.new("particles", "PARTICLE_SYSTEM")
             settings = instancer.particle_systems[0].settings
             settings.count, settings.frame_start, settings.frame_end, settings.normal_factor = 12, 0, 0, 0
             settings.render_type, settings.instance_object, settings.particle_size = "OBJECT", shown, 1
-            settings.effector_weights.gravity = 0
+            settings.effector_weights.gravity, settings.object_align_factor = 0, (0, 0, 0.3)
         elif name.startswith("stored"):
             instancer.modifiers.new("pairs", "NODES").node_group = paired_on_points(shown)
         else:
@@ -97,9 +98,16 @@ def _lit() -> None:
 def _of_instances() -> Iterator[tuple[str, Make]]:
     yield "random", node("ObjectInfo", "Random")
     yield "generated", node("TexCoord", "Generated", from_instancer=True)
+    yield "color", node("ObjectInfo", "Color")
     yield "uv", node("UVMap", "UV", from_instancer=True)
     yield "particle index", node("ParticleInfo", "Index")
     yield "particle random", node("ParticleInfo", "Random")
+    life = ((axis, node("ParticleInfo", name)) for axis, name in zip("XYZ", ("Age", "Lifetime", "Size"), strict=True))
+    yield "particle life", node("VectorMath", "Vector", (0, node("CombineXYZ", "Vector", *life)), operation="SINE")
+    level = (0, node("ParticleInfo", "Location")), (1, node("CombineXYZ", "Vector", X=1.0, Y=1.0))  # z is a render's
+    moved = (0, node("VectorMath", "Vector", *level, operation="MULTIPLY")), (1, node("ParticleInfo", "Velocity"))
+    place = node("VectorMath", "Vector", *moved, operation="ADD")
+    yield "particle place", node("VectorMath", "Vector", (0, place), operation="FRACTION")
     if hasattr(bpy.types.Object, "evaluated_geometry"):  # Blender 3.4 tells nobody
         kept = node("Attribute", "Color", attribute_name="kept", attribute_type="INSTANCER")
         part = node("Attribute", "Fac", attribute_name="part", attribute_type="INSTANCER")
