@@ -4,8 +4,8 @@
 // The vertices of a batch may share a cut through the light tree: nodes that stand for all lights, refined where most
 // light comes from. Each vertex weighs the cut's nodes itself, and goes down the tree from those that it chose. Places
 // in fog, one at a time, go down from the root. Of 1000 sphere lights one is chosen with a relative variance of 0.021
-// (all on a ceiling) to 0.107 (all over a room) on metal of alpha 0.1, with a cut of 64 nodes; from the root, of 0.09 to
-// 0.68 (tests/benchmark/light_choice.py).
+// (all on a ceiling) to 0.107 (all over a room) on metal of alpha 0.1, with a cut of 64 nodes; from the root, of 0.09
+// to 0.68 (tests/benchmark/light_choice.py).
 #pragma once
 
 #include "core/integrators/light_importance.h"
