@@ -23,7 +23,8 @@ struct LightView {
     Vec3b towards;  ///< world
     Vec3b wi;       ///< in the shading frame
     Batch distance2, variance;
-    Batch facing;  ///< cosine from their axis
+    Vec3f axis;    ///< theirs
+    Batch facing;  ///< cosine from it
     Batch reach;   ///< tangent of the angle that all are within
 };
 
@@ -36,6 +37,7 @@ inline LightView view_of(const SurfaceBatch& batch, const Vec3f& axis, const Vec
             batch.frame.to_local(towards),
             distance2,
             Batch(variance_m2) * inverse_distance * inverse_distance,
+            axis,
             -dot(towards, broadcast(axis)),
             Batch(bound_m) * inverse_distance};
 }
@@ -45,8 +47,11 @@ inline LightView view_of(const SurfaceBatch& batch, const VirtualLight& light) {
 }
 
 /// Of a piece of the light.
-inline LightView view_of(const SurfaceBatch& batch, const VirtualLight& light, const LightPiece& piece) {
-    return view_of(batch, light.axis, piece.mean, piece.variance_m2, 3.0f * std::sqrt(piece.variance_m2));
+inline LightView view_of(const SurfaceBatch& batch, const VirtualLight& light, bool is_glossy,
+                         const LightPiece& piece) {
+    const Vec3f axis =
+        is_glossy ? normalize(light.axis + light.turn.axis_from_place * (piece.mean - light.mean)) : light.axis;
+    return view_of(batch, axis, piece.mean, piece.variance_m2, 3.0f * std::sqrt(piece.variance_m2));
 }
 
 /// Whether none of a light, nor those below it, shine at any of the lanes asked for.
@@ -64,6 +69,36 @@ inline bool is_dark(const VirtualLight& light, bool is_glossy, const LightView& 
         lit = lit && view.facing + view.reach + Batch(3.0f / std::sqrt(std::max(light.sharpness, 1e-3f))) > zero;
     }
     return !any(lit);
+}
+
+struct PlaceInView {
+    Vec3b wi;  ///< world
+    Batch distance_m;
+    BatchMask is_faced;
+};
+
+/// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
+/// that does.
+inline PlaceInView place_in_view(const SurfaceBatch& batch, const Vec3b& normal_geometric, const VirtualLight& light,
+                                 const BatchMask& wanted, std::uint32_t turn) {
+    PlaceInView result;
+    for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
+        const LightPlace& place = light.places[(turn + i) % VirtualLight::place_count];
+        const Vec3b to_place = broadcast(place.position) - batch.position;
+        const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
+        const Vec3b wi = to_place * inverse(distance);
+        const BatchMask faced = dot(wi, normal_geometric) > Batch(0.0f) && dot(wi, batch.frame.z) > Batch(0.0f) &&
+                                dot(wi, broadcast(place.normal)) < Batch(0.0f);
+        if (i == 0) {
+            result = {wi, distance, faced};
+        } else {
+            const BatchMask better = faced && !result.is_faced;
+            result = {select(better, wi, result.wi), select(better, distance, result.distance_m),
+                      result.is_faced || faced};
+        }
+        if (!any(wanted && !result.is_faced)) break;
+    }
+    return result;
 }
 
 }  // namespace pivot

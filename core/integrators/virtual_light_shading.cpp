@@ -2,6 +2,7 @@
 
 #include "core/integrators/light_view.h"
 #include "core/integrators/passage.h"
+#include "core/integrators/turning_light.h"
 #include "core/sampling/sobol.h"
 #include "core/shading/ggx_gaussian_light.h"
 
@@ -27,6 +28,9 @@ constexpr float error_of_cosine = 0.02f;
 /// A leaf that gives more than share_to_open is seen as its quarters where it is nearer than this, rad^2, and these as
 /// theirs, so often at most: as a Gaussian it shines from where it is not, and not enough from where it touches.
 constexpr float near_variance = 0.1f;
+/// And where they are wider than this part of a lobe's variance, that it sends on or that reflects it, and of the
+/// squared angle between this one and them.
+constexpr float near_part_of_lobe = 0.3f, near_part_of_distance = 0.03f;
 constexpr int most_quarterings = 3;
 /// What of lights' light is taken to be further than a deviation from their mean.
 constexpr float part_of_few = 0.1f;
@@ -134,7 +138,8 @@ class LightCut {
             std::fill(asked.begin() + std::ptrdiff_t(first), asked.begin() + std::ptrdiff_t(last), wanted);
             if (!any(wanted)) continue;
             for (std::uint32_t ray = 0; ray < rays_per_light; ++ray) {
-                const PlaceInView place = place_in_view(light, wanted, turn_ * rays_per_light + ray);
+                const PlaceInView place =
+                    place_in_view(batch_, normal_geometric_, light, wanted, turn_ * rays_per_light + ray);
                 RayOf<Batch> rays{origin, place.wi, zero,
                                   select(place.is_faced && wanted, place.distance_m * Batch(0.999f), zero), time};
                 // Light from places that are all behind the surface comes through it.
@@ -184,41 +189,17 @@ class LightCut {
     }
 
    private:
-    struct PlaceInView {
-        Vec3b wi;  ///< world
-        Batch distance_m;
-        BatchMask is_faced;
-    };
-
-    /// One of a light's places for each lane: where some and the lane's surface face each other and some do not, one
-    /// that does.
-    PlaceInView place_in_view(const VirtualLight& light, const BatchMask& wanted, std::uint32_t turn) const {
-        PlaceInView result;
-        for (std::uint32_t i = 0; i < VirtualLight::place_count; ++i) {
-            const LightPlace& place = light.places[(turn + i) % VirtualLight::place_count];
-            const Vec3b to_place = broadcast(place.position) - batch_.position;
-            const Batch distance = sqrt(max(dot(to_place, to_place), Batch(1e-20f)));
-            const Vec3b wi = to_place * inverse(distance);
-            const BatchMask faced = dot(wi, normal_geometric_) > Batch(0.0f) && dot(wi, batch_.frame.z) > Batch(0.0f) &&
-                                    dot(wi, broadcast(place.normal)) < Batch(0.0f);
-            if (i == 0) {
-                result = {wi, distance, faced};
-            } else {
-                const BatchMask better = faced && !result.is_faced;
-                result = {select(better, wi, result.wi), select(better, distance, result.distance_m),
-                          result.is_faced || faced};
-            }
-            if (!any(wanted && !result.is_faced)) break;
-        }
-        return result;
-    }
-
     Batch glossy_size_of(const CutLight& cut) const {
         return cut.glossy.plain * glossy_weight_ * Batch(mean_component(abs(cut.light->power_w)));
     }
     Batch size_of(const CutLight& cut) const {
         return glossy_size_of(cut) +
                cut.diffuse * diffuse_weight_ * Batch(mean_component(abs(cut.light->power_w)) / pi<float>);
+    }
+    /// The squared distance of a light's direction from the mirrored view's, on the sphere.
+    Batch from_mirror2(const LightView& view) const {
+        const Vec3b& wo = batch_.lobe.wo_local;
+        return length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));
     }
     /// About the most that lights reflect.
     Batch estimate(const VirtualLight& light, bool is_glossy, const LightView& view) const {
@@ -235,8 +216,7 @@ class LightCut {
         const Batch few = light.child_count > 0 ? Batch(part_of_few) * clamp01(view.wi.z + view.reach) : zero;
         Batch reflected = Batch(1.0f / pi<float>) * diffuse_weight_ * max(clamp01(view.wi.z + deviation), few);
         if (receiver_) {
-            const Vec3b& wo = batch_.lobe.wo_local;
-            const Batch apart2 = length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));
+            const Batch apart2 = from_mirror2(view);
             const Batch width = inverse(inverse(receiver_->sharpness) + view.variance);
             // GGX's tails are longer than a Gaussian's.
             reflected +=
@@ -252,8 +232,7 @@ class LightCut {
     Batch usual_variance(const VirtualLight& light, bool is_glossy, const LightView& view) const {
         Batch allowed(largest_variance);
         if (receiver_) {
-            const Vec3b& wo = batch_.lobe.wo_local;
-            const Batch apart2 = length_squared(view.wi - Vec3b(-wo.x, -wo.y, wo.z));
+            const Batch apart2 = from_mirror2(view);
             const Batch of_lobe =
                 Batch(part_of_lobe) * inverse(receiver_->sharpness) + Batch(part_of_distance) * apart2;
             allowed = select(glossy_weight_ > Batch(0.0f), min(allowed, of_lobe), allowed);
@@ -293,6 +272,17 @@ class LightCut {
         if (any(together > zero)) visit(light, view, together);
     }
 
+    /// Up to which variance of directions a leaf is one Gaussian.
+    Batch near_variance_of(const VirtualLight& light, bool is_glossy, const LightView& view) const {
+        Batch near(is_glossy ? std::min(near_variance, near_part_of_lobe / light.sharpness) : near_variance);
+        if (receiver_) {
+            const Batch of_lobe = Batch(near_part_of_lobe) * inverse(receiver_->sharpness) +
+                                  Batch(near_part_of_distance) * from_mirror2(view);
+            near = select(glossy_weight_ > Batch(0.0f), min(near, of_lobe), near);
+        }
+        return near;
+    }
+
     /// A light as its pieces where it is near; `piece` is one, of which there are 4^quarterings.
     void add_near(const LightPieces* pieces, const VirtualLight& light, bool is_glossy, const LightView& view,
                   const Batch& weight, int quarterings = 0, std::size_t index = 0, const LightPiece& piece = {}) {
@@ -300,7 +290,8 @@ class LightCut {
         Batch together = weight;
         if (pieces && quarterings < most_quarterings) {
             const BatchMask matters = weight * estimate(light, is_glossy, view) > Batch(share_to_open) * total_;
-            const Batch near = smoothstep(Batch(2.0f / near_variance) * view.variance - one);
+            const Batch near =
+                smoothstep(Batch(2.0f) * view.variance * inverse(near_variance_of(light, is_glossy, view)) - one);
             const Batch below = select(matters, weight * near, zero);
             together = weight - below;
             for (std::size_t k = 0; k < 4 && any(below > zero); ++k) {
@@ -309,7 +300,7 @@ class LightCut {
                                         : quarterings == 1 ? pieces->sixteenths[part_index]
                                                            : pieces->part_of(piece, k, quarterings - 2);
                 if (!(part.share > 0.0f)) continue;
-                const LightView of_part = view_of(batch_, light, part);
+                const LightView of_part = view_of(batch_, light, is_glossy, part);
                 const float of_whole = quarterings == 0 ? 1.0f : piece.share;
                 if (!is_dark(light, is_glossy, of_part, size_ > zero))
                     add_near(pieces, light, is_glossy, of_part, below * Batch(part.share / of_whole), quarterings + 1,
@@ -323,15 +314,14 @@ class LightCut {
         const Batch zero(0.0f);
         const Batch variance = max(view.variance, Batch(least_variance));
         SphericalGaussian<Batch> seen{view.wi, inverse(variance), zero};
-        Batch scale = weight * inverse(Batch(2.0f * pi<float>) * max(variance * view.distance2, Batch(1e-20f)));
+        Batch scale = weight;
         if (is_glossy) {
-            const Vec3b axis = batch_.frame.to_local(broadcast(-light.axis));
-            seen = product(seen, SphericalGaussian<Batch>{axis, Batch(light.sharpness), zero});
-            scale *= Batch(1.0f / gaussian_solid_angle(light.sharpness)) * exp(seen.log_amplitude);
-            seen.log_amplitude = zero;
+            const TurningLight turning = seen_while_turning(batch_, light, view, variance);
+            seen = turning.seen;
+            scale *= turning.radiance;
         } else {
             scale *= mean_clamped_cosine(view.facing, Batch(1.0f / std::max(light.sharpness, 0.1f))) *
-                     Batch(1.0f / pi<float>);
+                     inverse(Batch(2.0f * sqr(pi<float>)) * max(variance * view.distance2, Batch(1e-20f)));
         }
         CutLight cut{&light, seen, scale, zero, {}};
         const Batch apart = view.variance * inverse(usual_variance(light, is_glossy, view));

@@ -10,6 +10,16 @@ namespace pivot {
 namespace {
 
 using Vec3d = Vec3<double>;
+using Mat3d = Mat3<double>;
+
+double trace(const Mat3d& m) { return m[0][0] + m[1][1] + m[2][2]; }
+
+/// So many deposits tell half of how axes turn with places.
+constexpr double deposits_that_tell = 8.0;
+/// Variances that are no less, relative to all: of places along one axis, and of axes about how they turn.
+constexpr double least_part_of_places = 0.01, least_part_of_axes = 0.05;
+/// Axes turn half as much where lobes are as wide as this, rad^2: it is a first order's.
+constexpr double variance_of_half_turn = 0.1;
 
 /// A place that may stand for a light's, kept by a draw that favours what carries more.
 struct Representative {
@@ -19,17 +29,20 @@ struct Representative {
 
 /// Sums over deposits: what lights together have in common with one.
 struct LightSums {
-    double weight = 0.0, square = 0.0;
+    double weight = 0.0, weight_square = 0.0;
     Vec3d place{0.0}, axis{0.0}, power{0.0};
+    Mat3d places{0.0}, axes_by_places{0.0};  ///< products of each with itself, and of the one with the other
     std::array<Representative, VirtualLight::place_count> representatives{};  ///< the best first
 
     void add(const LightDeposit& deposit, std::uint32_t index, double share) {
         const double w = share * static_cast<double>(mean_component(abs(deposit.power_w)));
         const Vec3d at(deposit.place.position);
         weight += w;
+        weight_square += w * w;
         place += w * at;
-        square += w * length_squared(at);
+        places += glm::outerProduct(w * at, at);
         axis += w * Vec3d(deposit.axis);
+        axes_by_places += glm::outerProduct(w * Vec3d(deposit.axis), at);
         power += share * Vec3d(deposit.power_w);
         // The largest u^(1/w) are a draw by weight without repetition.
         const float u = (static_cast<float>(hash(deposit.id, 0x76736c67u) >> 8) + 0.5f) * 0x1p-24f;
@@ -37,9 +50,11 @@ struct LightSums {
     }
     void add(const LightSums& other) {
         weight += other.weight;
+        weight_square += other.weight_square;
         place += other.place;
-        square += other.square;
+        places += other.places;
         axis += other.axis;
+        axes_by_places += other.axes_by_places;
         power += other.power;
         for (const Representative& r : other.representatives) consider(r);
     }
@@ -149,11 +164,13 @@ class TreeBuilder {
         VirtualLight light;
         const Vec3d mean = sums.place / sums.weight, axis = sums.axis / sums.weight;
         light.mean = Vec3f(mean);
-        light.variance_m2 = static_cast<float>(std::max(0.5 * (sums.square / sums.weight - length_squared(mean)), 0.0));
-        light.variance_m2 = std::max(light.variance_m2, least_variance_m2_);
+        const Mat3d covariance = sums.places / sums.weight - glm::outerProduct(mean, mean);
+        const double variance = std::max(0.5 * trace(covariance), 0.0);
+        light.variance_m2 = std::max(static_cast<float>(variance), least_variance_m2_);
         const double axis_length = length(axis);
         light.axis = axis_length > 1e-6 ? Vec3f(axis / axis_length) : Vec3f(0.0f, 0.0f, 1.0f);
         light.sharpness = static_cast<float>(sharpness_of_mean(axis_length));
+        light.turn = turn_of(sums, covariance, mean, axis);
         light.bound_m = 3.0f * std::sqrt(light.variance_m2);
         light.lowest_m = 0.0f;
         light.lobe_sharpness = std::max(light.sharpness, 1e-3f);
@@ -164,6 +181,26 @@ class TreeBuilder {
                 r.rank > -std::numeric_limits<float>::infinity() ? deposits_[r.deposit].place : light.places[0];
         }
         return light;
+    }
+
+    static LightTurn turn_of(const LightSums& sums, const Mat3d& covariance, const Vec3d& mean, const Vec3d& axis) {
+        LightTurn turn;
+        const double trace_m2 = trace(covariance), axis_length = length(axis);
+        const double axis_variance = 1.0 / std::max(sharpness_of_mean(axis_length), 1e-3);
+        turn.axis_variance = static_cast<float>(axis_variance);
+        if (!(trace_m2 > 0.0) || !(axis_length > 1e-3)) return turn;
+        // By least squares, less where few deposits tell. Nothing is told of what leads out of a flat surface.
+        const double count = sqr(sums.weight) / sums.weight_square;
+        const Mat3d mixed = sums.axes_by_places / sums.weight - glm::outerProduct(axis, mean);
+        const Mat3d axis_from_place = mixed * glm::inverse(covariance + Mat3d(least_part_of_places * trace_m2)) *
+                                      (count / (count + deposits_that_tell));
+        const Mat3d told = axis_from_place * covariance * glm::transpose(axis_from_place);
+        const double told_across = trace(told) - dot(axis, told * axis) / sqr(axis_length);
+        const double part = told_across / (1.0 - sqr(axis_length));
+        turn.axis_from_place =
+            Mat3<float>(axis_from_place / (axis_length * (1.0 + axis_variance / variance_of_half_turn)));
+        turn.axis_variance *= static_cast<float>(std::max(1.0 - part, least_part_of_axes));
+        return turn;
     }
 
     std::span<const LightDeposit> deposits_;

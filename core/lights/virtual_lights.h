@@ -38,6 +38,13 @@ struct LightDeposit {
     int flat_axis;        ///< that one of its object's that the place's surface faces most
 };
 
+/// How the axis of a light turns from place to place, as it does where a surface is curved or lit from nearby: light
+/// that comes together, as that of a caustic does, is spread no wider than its axes are about this.
+struct LightTurn {
+    Mat3<float> axis_from_place{0.0f};  ///< what is added to the axis, per metre from the mean place
+    float axis_variance = 0.0f;         ///< of axes about that, across, rad^2
+};
+
 /// Lights together, or one: the leaf of a tree has no children.
 struct VirtualLight {
     static constexpr std::size_t place_count = 4;
@@ -53,6 +60,7 @@ struct VirtualLight {
     Rgb power_w;
     std::uint32_t first_child = 0, child_count = 0;
     std::uint32_t pieces = no_pieces;            ///< of a leaf, among its tree's
+    LightTurn turn;                              ///< of what glossy lobes reflect
     std::array<LightPlace, place_count> places;  ///< spread as its light is: where shadow rays end
 };
 
