@@ -46,6 +46,7 @@ BLENDER_MODULES = {
     "gpu",
     "gpu_extras",
     "addon_utils",
+    "bl_operators",
     "bl_ui",
     "bl_math",
     "idprop",
