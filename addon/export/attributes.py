@@ -32,6 +32,7 @@ VALUES = {
     "FLOAT_VECTOR": ("vector", 3),
     "FLOAT_COLOR": ("color", 4),
     "BYTE_COLOR": ("color", 4),
+    "QUATERNION": ("value", 4),
 }
 
 

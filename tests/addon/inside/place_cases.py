@@ -161,6 +161,7 @@ _KEYS = {
     "FLOAT_VECTOR": ("vector", 3),
     "FLOAT_COLOR": ("color", 4),
     "BYTE_COLOR": ("color", 4),
+    "QUATERNION": ("value", 4),
 }
 
 
@@ -174,6 +175,8 @@ def _attributes() -> Iterator[tuple[str, str]]:
     yield "BOOLEAN", "FACE"
     yield "FLOAT2", "CORNER"
     yield "FLOAT_VECTOR", "POINT"
+    if bpy.app.version >= (4, 0):
+        yield "QUATERNION", "POINT"
 
 
 def node(kind: str, output: str, *links: Any, **settings: Any) -> Make:
