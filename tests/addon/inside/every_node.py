@@ -77,7 +77,8 @@ def cases() -> Iterator[tuple[str, str, Make]]:
                 setattr(node, menu, choice)
             except TypeError:  # of other editors' nodes
                 continue
-            yield f"{kind}, {menu} = {choice}", node.type, _maker(kind, None, menu, choice)
+            if any(map(_is_there, node.outputs)):
+                yield f"{kind}, {menu} = {choice}", node.type, _maker(kind, None, menu, choice)
 
 
 def _is_there(socket: Any) -> bool:
