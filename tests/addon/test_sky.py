@@ -9,7 +9,7 @@ import pytest
 from beside_cycles import FLIP, TOLERANCE, flip, read_both
 from blender_host import Host
 
-CASES = ("noon", "dusk", "haze", "unseen", "daylight")
+CASES = ("noon", "dusk", "haze", "unseen", "painted", "daylight")
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..program import Value
 from ..sky import LIMB_DARKENING, Air, horizon_rad, preetham, single_scattering, sun_disk
+from .geometry import generated
 from .ray import CAMERA_RAY
 from .row import Node, Row
 from .texture_mapping import mapped
@@ -28,20 +29,20 @@ def _sky_texture(node: Node) -> Value:
     blender_node, program = node.node, node.program
     if blender_node.sky_type in _INSTEAD:
         node.warn(_INSTEAD[blender_node.sky_type])
-    vector = node.vector("Vector") if node.has("Vector") and node.is_linked("Vector") else node.op("position")
-    direction = program.op("vector_normalize", mapped(vector, blender_node.texture_mapping))
+    vector = node.vector("Vector") if node.has("Vector") and node.is_linked("Vector") else generated(node)
+    vector = mapped(vector, blender_node.texture_mapping)  # of any length: [C] takes z for the sine of the elevation
     if blender_node.sky_type not in _SCATTERING:
         sun = tuple(blender_node.sun_direction)
         image = program.images.sky(
             ("PREETHAM", sun, blender_node.turbidity), lambda: preetham(np.array(sun), blender_node.turbidity)
         )
-        return _looked_up(node, direction, math.atan2(sun[1], sun[0]), image)
+        return _looked_up(node, vector, math.atan2(sun[1], sun[0]), image)
     air, azimuth_rad = _air(blender_node)
     image = program.images.sky(air, lambda: single_scattering(program.core, air))
-    sky = _looked_up(node, direction, azimuth_rad, image)
+    sky = _looked_up(node, vector, azimuth_rad, image)
     if not blender_node.sun_disc:
         return sky
-    sun, is_there = _sun(node, direction, air, azimuth_rad)
+    sun, is_there = _sun(node, program.op("vector_normalize", vector), air, azimuth_rad)
     return sky * (1.0 - is_there) + sun if _SUN_HIDES_SKY else sky + sun
 
 
@@ -100,12 +101,12 @@ def _elevation(direction: Value) -> Value:
     return direction.program.each("math_arcsine", direction[2])
 
 
-def _looked_up(node: Node, direction: Value, azimuth_rad: float, image: Any) -> Value:
+def _looked_up(node: Node, vector: Value, azimuth_rad: float, image: Any) -> Value:
     """Of a picture of export/sky.py, turned to the sun."""
     program = node.program
-    turns = program.each("math_arctan2", direction[1], direction[0]) * (-0.5 / math.pi)
+    turns = program.each("math_arctan2", vector[1], vector[0]) * (-0.5 / math.pi)
     u = program.each("math_fract", turns + (0.5 + azimuth_rad / (2 * math.pi)))
-    elevation = _elevation(direction)
+    elevation = _elevation(vector)
     level = (program.each("math_absolute", elevation) * (2 / math.pi)).root()
     v = program.each("math_sign", elevation) * level * 0.5 + 0.5
     at = program.joined(u, v)

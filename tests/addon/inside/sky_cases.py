@@ -1,4 +1,4 @@
-"""Skies above a ball on the ground, all around the camera, rendered by Cycles and by Pivot."""
+"""Skies above a ball on the ground, or painted on a wall, all around the camera, rendered by Cycles and by Pivot."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ CASES: dict[str, dict[str, Any]] = {
     "dusk": NOON | {"sun_elevation": -0.02, "sun_disc": False, "altitude": 3000, "ozone_density": 3},
     "haze": NOON | {"sun_elevation": 2.6, "sun_disc": False, "air_density": 2, "altitude": 0},
     "unseen": NOON | {"sun_disc": False},
+    "painted": NOON | {"sun_disc": False},
     "daylight": {"sky_type": "PREETHAM", "sun_direction": (0.5, 0.3, 0.81), "turbidity": 4},
 }
 
@@ -34,12 +35,17 @@ def main(folder: Path) -> Any:
         metal, node = parts.shaded("metal", "ShaderNodeBsdfGlossy", Color=(0.9, 0.7, 0.4, 1), Roughness=0.4)
         node.distribution = "GGX"
         _ball("ball", (0.5, 2, 1), metal)
-        tree = parts.world((0, 0, 0)).node_tree
+        shines = parts.world((0, 0, 0)).node_tree.nodes["Background"]
+        if name == "painted":
+            shines.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
+            paint, shines = parts.shaded("paint", "ShaderNodeEmission")
+            parts.quad("wall", (0, 4, 1), paint).rotation_euler = (1.2, 0, 0.3)
+        tree = shines.id_data
         sky = tree.nodes.new("ShaderNodeTexSky")
         for key, value in settings.items():
             setattr(sky, key, value)
-        tree.links.new(sky.outputs[0], tree.nodes["Background"].inputs["Color"])
-        tree.nodes["Background"].inputs["Strength"].default_value = 0.1 if settings["sky_type"] == SINGLE else 0.5
+        tree.links.new(sky.outputs[0], shines.inputs["Color"])
+        shines.inputs["Strength"].default_value = 0.1 if settings["sky_type"] == SINGLE else 0.5
         bpy.context.scene.world.cycles_visibility.camera = name != "unseen"
         _cycles(folder / f"{name}_CYCLES.exr", 0, 256)
         _pivot(folder / f"{name}_PIVOT.exr", 0, "JOINT", 128)
