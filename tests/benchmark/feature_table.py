@@ -136,7 +136,8 @@ def _row(name: str, ours: Picture, cycles: Picture) -> Row:
     shown = [_over_grey(picture) for picture in (ours, cycles)]
     write_png(PICTURES / f"{re.sub(r'[^A-Za-z0-9]+', '_', name)}.png", to_bytes(np.hstack(shown[::-1])))
     are_dark = np.maximum(*np.abs(means)) < DARK
-    return Row(name, np.where(are_dark, np.nan, means[0] / np.maximum(means[1], 1e-6)), flip(*shown))
+    ratios = means[0] / np.where(np.abs(means[1]) < 1e-6, 1e-6, means[1])  # an AOV may be negative
+    return Row(name, np.where(are_dark, np.nan, ratios), flip(*shown))
 
 
 def _over_grey(picture: Picture) -> Picture:
