@@ -97,6 +97,7 @@ class _Exporter:
     ) -> None:
         self._context = context
         self._check_cancel = check_cancel
+        self._frame = context.depsgraph.scene_eval.frame_current_final
         self._links = LightLinks.read(context.depsgraph, context.reporter)
         self._makes = GroupMaker(context, check_cancel, MaterialTable(context, world_shines), meshes)
         self._of_objects: dict[tuple[int, int], dict[str, Any]] = {}  # by the original object and its instancer
@@ -188,8 +189,7 @@ class _Exporter:
         for indices, particles, ways, of_particles in lists:
             indices.append(index)
             if particles is not None:
-                frame = self._context.depsgraph.scene_eval.frame_current_final
-                particles.append(particle_numbers(instance, of_particles, frame))
+                particles.append(particle_numbers(instance, of_particles, self._frame))
             if ways is not None:
                 ways.append(self._way(instance, instancer))
 

@@ -7,6 +7,7 @@ its own, with the addon enabled and an empty scene.
 
 from __future__ import annotations
 
+import argparse
 import functools
 import json
 import os
@@ -88,6 +89,14 @@ def find_host(program: str) -> Host | None:
         return bpy_host(program)
     command = (program, "--background", "--factory-startup", "--python-exit-code", "1", "--python")
     return Host(command, (int(version[1]), int(version[2])), program)
+
+
+def host_argument(program: str) -> Host:
+    """find_host() as the type of a command's argument."""
+    host = find_host(program)
+    if host is None:
+        raise argparse.ArgumentTypeError(f"{program} is no Blender and has no bpy")
+    return host
 
 
 def bpy_host(python: str) -> Host | None:

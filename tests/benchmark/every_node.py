@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
-from blender_host import environment, find_host
+from blender_host import environment, host_argument
 from exr import read_rgb
 
 WORKER = Path(__file__).with_name("every_node_worker.py")
@@ -29,12 +29,10 @@ TOLERANCE = 0.02  # of the mean, over the pixels
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--blender", default=sys.executable, help="a Blender, or a Python with bpy")
+    parser.add_argument("--blender", type=host_argument, default=sys.executable, help="a Blender, or a Python with bpy")
     parser.add_argument("--only", nargs="+", default=[""], metavar="PART", help="cases whose name has one of these")
     arguments = parser.parse_args()
-    host = find_host(arguments.blender)
-    if host is None:
-        parser.error(f"{arguments.blender} is no Blender and has no bpy")
+    host = arguments.blender
     with tempfile.TemporaryDirectory(prefix="every_node_") as name:
         folder = Path(name)
         done = subprocess.run(

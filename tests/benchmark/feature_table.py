@@ -26,7 +26,7 @@ from pivot.chart.pixels import to_bytes, write_png
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
 from beside_cycles import FLIP, TOLERANCE, Picture, flip
-from blender_host import Host, find_host
+from blender_host import Host, host_argument
 from exr import read_passes
 from pass_names import Passes, colored, with_old_names
 
@@ -75,13 +75,11 @@ class Row:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--blender", default=sys.executable, help="a Blender, or a Python with bpy")
+    parser.add_argument("--blender", type=host_argument, default=sys.executable, help="a Blender, or a Python with bpy")
     parser.add_argument("--only", nargs="+", default=[""], metavar="PART", help="features whose name has one of these")
     parser.add_argument("--merge", action="store_true", help="a row for all pictures of a script")
     arguments = parser.parse_args()
-    host = find_host(arguments.blender)
-    if host is None:
-        parser.error(f"{arguments.blender} is no Blender and has no bpy")
+    host = arguments.blender
     PICTURES.mkdir(parents=True, exist_ok=True)
     print(f"Blender {host}\n\n| | Pivot over Cycles | FLIP |\n|---|---|---|", flush=True)
     rows: list[Row] = []

@@ -27,7 +27,7 @@ from pivot.chart.pixels import to_bytes, write_png
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
 from beside_cycles import FLIP, TOLERANCE, flip, read_both
-from blender_host import environment, find_host
+from blender_host import environment, host_argument
 
 WORKER = Path(__file__).with_name("lobe_table_worker.py")
 PICTURES = Path(__file__).resolve().parents[2] / "build" / "lobe_table"
@@ -35,14 +35,12 @@ PICTURES = Path(__file__).resolve().parents[2] / "build" / "lobe_table"
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--blender", default=sys.executable, help="a Blender, or a Python with bpy")
+    parser.add_argument("--blender", type=host_argument, default=sys.executable, help="a Blender, or a Python with bpy")
     parser.add_argument("--library", default="", metavar="FILE", help="a .blend file of materials")
     parser.add_argument("--only", nargs="+", default=[""], metavar="PART", help="rows whose name has one of these")
     parser.add_argument("--bounces", type=int, default=4)
     arguments = parser.parse_args()
-    host = find_host(arguments.blender)
-    if host is None:
-        parser.error(f"{arguments.blender} is no Blender and has no bpy")
+    host = arguments.blender
     PICTURES.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="lobe_table_") as name:
         folder = Path(name)

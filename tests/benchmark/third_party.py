@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from pivot.chart.pixels import to_bytes, write_png
 from pivot.srgb import srgb_from_linear
 
-from tests.addon.blender_host import Host, environment, find_host
+from tests.addon.blender_host import Host, environment, host_argument
 from tests.benchmark.third_party_files import CACHE, third_party_files
 
 WORKER = Path(__file__).with_name("third_party_worker.py")
@@ -81,12 +81,10 @@ def kinds(warnings: list[str]) -> list[str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--blender", default=sys.executable, help="a Blender, or a Python with bpy")
+    parser.add_argument("--blender", type=host_argument, default=sys.executable, help="a Blender, or a Python with bpy")
     parser.add_argument("--only", nargs="+", default=[""], metavar="PART", help="files whose path has one of these")
     arguments = parser.parse_args()
-    host = find_host(arguments.blender)
-    if host is None:
-        parser.error(f"{arguments.blender} is no Blender and has no bpy")
+    host = arguments.blender
     PICTURES.mkdir(parents=True, exist_ok=True)
     print(f"Blender {host}\n\n| file | FLIP | P / C | added | warnings |\n|---|---|---|---|---|")
     figures = []
